@@ -1,0 +1,104 @@
+// bsm_bench: the speed of single kernels and of whole frames on this machine.
+#include <cstdio>
+#include <new>
+#include <string>
+
+#include "bench/command_line.h"
+#include "bench/frame_bench.h"
+#include "bench/kernel_bench.h"
+#include "bsm/bsm.h"
+#include "host/config_options.h"
+#include "host/options.h"
+
+namespace bsm::bench {
+namespace {
+
+constexpr char kProgram[] = "bsm_bench";
+constexpr char kKernels[] = "bsm_bench kernels";
+constexpr char kFrame[] = "bsm_bench frame";
+constexpr char kHelp[] =
+    "usage: bsm_bench COMMAND [options]\n\n"
+    "commands:\n"
+    "  kernels [options]           time of each kernel that this machine can run\n"
+    "  frame LEFT RIGHT [options]  time of a whole frame and of its stages\n\n"
+    "'bsm_bench COMMAND --help' lists the options.\n";
+
+int usage_error(const char* program, const std::string& message) {
+  complain(program, message + " ('" + program + " --help' says more)");
+  return kExitUsage;
+}
+
+int kernels_command(int argc, char** argv) {
+  KernelBench bench;
+  host::Options options(
+      kKernels, "bsm_bench kernels [options]",
+      "Times every kernel that this machine can run on one row of a made-up scene: nanoseconds and cycles\n"
+      "per pixel or per pixel and disparity, bits per cycle, the ratio to the scalar kernel measured beside\n"
+      "it, and the share of the instruction set's bound for counting bits.");
+  options.word("--isa", "NAME", &bench.isa, "kernels of this instruction set alone: all, scalar, or as kernels are named");
+  options.word("--filter", "TEXT", &bench.filter, "kernels whose name holds TEXT");
+  options.integer("--width", "W", &bench.width, 1, BSM_MAX_SIZE, "pixels of the row");
+  options.integer("--bits", "N", &bench.bits, BSM_MIN_BITS, BSM_MAX_BITS, "descriptor length, a multiple of 64");
+  options.integer("--disparities", "D", &bench.disparities, 1, BSM_MAX_DISPARITY - BSM_MIN_DISPARITY + 1,
+                  "how many disparities are searched, from 0 up");
+  options.integer("--repeat", "R", &bench.repeat, 1, 1000000, "samples of each kernel; the median is reported");
+  options.flag("--csv", &bench.csv, "comma-separated values");
+  int exit_code = kExitOk;
+  if (!parse_command_line(argc, argv, &options, &exit_code)) return exit_code;
+  std::string error;
+  if (bench.bits % BSM_MIN_BITS != 0) {
+    return usage_error(kKernels, "--bits '" + std::to_string(bench.bits) + "': not a multiple of 64");
+  }
+  if (!check_kernel_bench(bench, &error)) return usage_error(kKernels, error);
+  run_kernel_bench(bench);
+  return kExitOk;
+}
+
+int frame_command(int argc, char** argv) {
+  FrameBench bench;
+  host::Options options(
+      kFrame, "bsm_bench frame LEFT RIGHT [options]",
+      "Times the matching of a rectified pair, two PPM or PGM images of one size: the whole frame, million\n"
+      "disparity evaluations a second (pixels x disparities / time), and each stage as the difference of\n"
+      "whole runs that end there.");
+  options.positional("LEFT", &bench.left);
+  options.positional("RIGHT", &bench.right);
+  bench.config.add_search(&options);
+  options.integer("--repeat", "R", &bench.repeat, 1, 1000000, "runs of each stage; the median is reported");
+  options.flag("--csv", &bench.csv, "comma-separated values");
+  int exit_code = kExitOk;
+  if (!parse_command_line(argc, argv, &options, &exit_code)) return exit_code;
+  std::string error;
+  if (!bench.config.finish(&error)) return usage_error(kFrame, error);
+  size_t bytes = 0;
+  const bsm_status status = bsm_memory_required(&bench.config.config, &bytes);
+  if (status < 0) return usage_error(kFrame, host::config_error(status));
+  if (run_frame_bench(&bench, &error)) return kExitOk;
+  complain(kFrame, error);
+  return kExitData;
+}
+
+int main_program(int argc, char** argv) {
+  const std::string command = argc > 1 ? argv[1] : "";
+  if (command == "kernels") return kernels_command(argc - 1, argv + 1);
+  if (command == "frame") return frame_command(argc - 1, argv + 1);
+  if (command == "--help" || command == "-h") {
+    std::fputs(kHelp, stdout);
+    return kExitOk;
+  }
+  return usage_error(kProgram,
+                     command.empty() ? "a command is missing: kernels or frame" : "'" + command + "': no such command");
+}
+
+}  // namespace
+}  // namespace bsm::bench
+
+int main(int argc, char** argv) {
+  int exit_code = bsm::bench::kExitData;
+  try {
+    exit_code = bsm::bench::main_program(argc, argv);
+  } catch (const std::bad_alloc&) {
+    bsm::bench::complain(bsm::bench::kProgram, "out of memory");
+  }
+  return bsm::bench::finish_output(bsm::bench::kProgram, exit_code);
+}

@@ -1,0 +1,205 @@
+// Measures frames: one context for each stage that the map can come from, the contexts in turn.
+#include "bench/frame_bench.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include "bench/table.h"
+#include "bsm/bsm.h"
+#include "host/arena.h"
+#include "host/image.h"
+#include "host/pnm_read.h"
+#include "host/run_match.h"
+#include "host/text.h"
+#include "host/thread_pool.h"
+
+namespace bsm::bench {
+namespace {
+
+using host::text;
+
+constexpr double kNoisy = 2.0;  // slowest run over fastest above which a note is printed
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+}
+
+bool read_view(const std::string& path, host::Image8* image, std::string* error) {
+  host::SampleImage samples;
+  if (!host::read_pnm_file(path, &samples, error)) return false;
+  *image = host::to_image8(samples);
+  return true;
+}
+
+bsm_image view_of(const host::Image8& image) {
+  return bsm_image{{image.pixels.data(), nullptr}, {static_cast<ptrdiff_t>(image.row_bytes()), 0}};
+}
+
+// A context whose map is that of one stage.
+struct StageRun {
+  bsm_config config{};
+  host::Arena arena;
+  bsm_context* context = nullptr;
+  size_t bytes = 0;
+  std::vector<double> milliseconds;
+
+  double fastest() const { return *std::min_element(milliseconds.begin(), milliseconds.end()); }
+  double slowest() const { return *std::max_element(milliseconds.begin(), milliseconds.end()); }
+};
+
+bool open_run(StageRun* run, std::string* error) {
+  bsm_status status = bsm_memory_required(&run->config, &run->bytes);
+  if (status >= 0 && !run->arena.allocate(run->bytes)) {
+    *error = text("cannot allocate %zu bytes; fewer --threads, --disparities or --bits need less", run->bytes);
+    return false;
+  }
+  if (status >= 0) status = bsm_open(&run->config, run->arena.data(), run->arena.size(), &run->context);
+  if (status < 0) *error = host::config_error(status);
+  return status >= 0;
+}
+
+using Runs = std::vector<std::unique_ptr<StageRun>>;
+
+// Contexts of the stages that the method has, the last of them refined.
+bool open_runs(const bsm_config& config, Runs* runs, std::string* error) {
+  for (const bsm_stage stage :
+       {BSM_STAGE_COST, BSM_STAGE_MASKED, BSM_STAGE_AGGREGATED, BSM_STAGE_CHECKED, BSM_STAGE_REFINED}) {
+    auto run = std::make_unique<StageRun>();
+    run->config = config;
+    run->config.stage = stage;
+    if (bsm_memory_required(&run->config, &run->bytes) == BSM_ERROR_STAGE) continue;
+    if (!open_run(run.get(), error)) return false;
+    runs->push_back(std::move(run));
+  }
+  return true;
+}
+
+bool measure(const host::Image8& left, const host::Image8& right, int32_t repeat, const Runs& runs, std::string* error) {
+  const bsm_config& config = runs.back()->config;
+  std::vector<int16_t> disparity(static_cast<size_t>(config.width) * static_cast<size_t>(config.height));
+  host::ThreadPool threads(config.max_jobs);
+  bsm_frame frame{};
+  frame.left = view_of(left);
+  frame.right = view_of(right);
+  frame.disparity = bsm_map{disparity.data(), ptrdiff_t{config.width} * 2};
+  if (config.max_jobs > 1) {
+    frame.parallel_for = host::ThreadPool::parallel_for;
+    frame.parallel_user = &threads;
+  }
+  for (int32_t i = -1; i < repeat; ++i) {  // the round before the first touches the memory and is not kept
+    for (const std::unique_ptr<StageRun>& run : runs) {
+      const auto begin = std::chrono::steady_clock::now();
+      const bsm_status status = bsm_process(run->context, &frame);
+      const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
+      if (status < 0) {
+        *error = bsm_status_string(status);
+        return false;
+      }
+      if (i >= 0) run->milliseconds.push_back(elapsed.count());
+    }
+  }
+  return true;
+}
+
+// Million disparity evaluations a second.
+double mde(const bsm_config& config, double milliseconds) {
+  return 1e-3 * config.width * config.height * config.num_disparities / milliseconds;
+}
+
+std::string name_of(const StageRun& run) {
+  return host::stage_name(run.config.stage);
+}
+
+// Median of the rounds' differences: both runs of a round meet the same machine.
+double difference(const StageRun& run, const StageRun& before) {
+  std::vector<double> differences;
+  for (size_t i = 0; i < run.milliseconds.size(); ++i) {
+    differences.push_back(run.milliseconds[i] - before.milliseconds[i]);
+  }
+  return median(differences);
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + word;
+  return line;
+}
+
+void print_csv(const FrameBench& bench, const Runs& runs) {
+  Table table;
+  table.columns = {"stage",       "ms_min", "ms_median", "ms_stage", "mde_per_s", "width",   "height",      "min_disparity",
+                   "disparities", "preset", "method",    "bits",     "paths",     "threads", "arena_bytes", "kernels"};
+  for (size_t i = 0; i < runs.size(); ++i) {
+    const StageRun& run = *runs[i];
+    const bsm_config& c = run.config;
+    const double ms = median(run.milliseconds);
+    table.add({name_of(run), fixed(run.fastest(), 3), fixed(ms, 3), fixed(i == 0 ? ms : difference(run, *runs[i - 1]), 3),
+               fixed(mde(c, ms), 1), std::to_string(c.width), std::to_string(c.height), std::to_string(c.min_disparity),
+               std::to_string(c.num_disparities), bench.config.preset(), host::method_name(c.method), std::to_string(c.bits),
+               c.method == BSM_METHOD_SGM ? std::to_string(c.paths) : "", std::to_string(c.max_jobs),
+               std::to_string(run.bytes), joined(host::kernel_names(run.context))});
+  }
+  std::fputs(to_csv(table).c_str(), stdout);
+}
+
+void print_text(const FrameBench& bench, const Runs& runs) {
+  const StageRun& whole = *runs.back();
+  const bsm_config& c = whole.config;
+  const double ms = median(whole.milliseconds);
+  std::printf("%d x %d pixels, %s, disparities %d..%d; preset %s: %s, %d bits%s\n", static_cast<int>(c.width),
+              static_cast<int>(c.height), host::format_name(c.format), static_cast<int>(c.min_disparity),
+              static_cast<int>(c.min_disparity + c.num_disparities - 1), bench.config.preset(), host::method_name(c.method),
+              static_cast<int>(c.bits),
+              c.method == BSM_METHOD_SGM ? text(", %d paths", static_cast<int>(c.paths)).c_str() : "");
+  std::printf("%d thread%s, arena %.0f KB, --isa %s; kernels:\n", static_cast<int>(c.max_jobs), c.max_jobs == 1 ? "" : "s",
+              static_cast<double>(whole.bytes) / 1024.0, bench.config.isa.c_str());
+  for (const std::string& name : host::kernel_names(whole.context)) std::printf("  %s\n", name.c_str());
+  std::printf("\nframe: %.2f ms (median of %d, least %.2f), %.0f MDE/s\n\n", ms, static_cast<int>(bench.repeat),
+              whole.fastest(), mde(c, ms));
+  std::printf(
+      "Whole runs up to each stage, taken in turn. 'stage' is the median difference to the run of the stage before, no "
+      "time\n"
+      "taken inside a run: a step that one run does otherwise than the next counts in both, and may make it negative.\n\n");
+  Table table;
+  table.columns = {"up to", "ms", "least", "stage", "max/min"};
+  bool noisy = false;
+  for (size_t i = 0; i < runs.size(); ++i) {
+    const StageRun& run = *runs[i];
+    const double run_ms = median(run.milliseconds);
+    const double spread = run.slowest() / run.fastest();
+    noisy = noisy || spread > kNoisy;
+    table.add({name_of(run), fixed(run_ms), fixed(run.fastest()), fixed(i == 0 ? run_ms : difference(run, *runs[i - 1])),
+               fixed(spread)});
+  }
+  std::fputs(to_text(table).c_str(), stdout);
+  if (noisy) std::printf("\nNote: runs of a stage are more than %.0f times apart; the machine is busy.\n", kNoisy);
+}
+
+}  // namespace
+
+bool run_frame_bench(FrameBench* bench, std::string* error) {
+  host::Image8 left, right;
+  if (!read_view(bench->left, &left, error) || !read_view(bench->right, &right, error) ||
+      !host::prepare_pair(&left, bench->left, &right, bench->right, error)) {
+    return false;
+  }
+  bench->config.set_format(left.channels == 3 ? BSM_FORMAT_RGB24 : BSM_FORMAT_GRAY8);
+  bsm_config config = bench->config.config;
+  config.width = left.width;
+  config.height = left.height;
+  Runs runs;
+  if (!open_runs(config, &runs, error) || !measure(left, right, bench->repeat, runs, error)) return false;
+  if (bench->csv) {
+    print_csv(*bench, runs);
+  } else {
+    print_text(*bench, runs);
+  }
+  return true;
+}
+
+}  // namespace bsm::bench

@@ -1,0 +1,210 @@
+// The public calls: every argument is checked here, then the row engine does the work.
+#include "bsm/bsm.h"
+#include "core/config.h"
+#include "core/context.h"
+#include "core/engine.h"
+#include "core/refine.h"
+#include "core/weights.h"
+#include "platform/compiler.h"
+#include "platform/cpu.h"
+
+namespace bsm {
+namespace {
+
+bsm_status check_context(const bsm_context* context) {
+  if (context == nullptr) return BSM_ERROR_NULL;
+  return context->self == context ? BSM_OK : BSM_ERROR_CONTEXT;
+}
+
+// True when rows of `row_bytes` bytes would overlap.
+bool too_short(ptrdiff_t stride, ptrdiff_t row_bytes, int32_t rows) {
+  return rows > 1 && stride < row_bytes && -stride < row_bytes;
+}
+
+bool is_even(const void* pointer) {
+  return (reinterpret_cast<uintptr_t>(pointer) & 1) == 0;
+}
+
+bsm_status check_map(const bsm_map& map, const bsm_config& config) {
+  if (!is_even(map.data) || (map.stride & 1) != 0) return BSM_ERROR_ALIGNMENT;
+  const ptrdiff_t row_bytes = ptrdiff_t{config.width} * static_cast<ptrdiff_t>(sizeof(int16_t));
+  return too_short(map.stride, row_bytes, config.height) ? BSM_ERROR_STRIDE : BSM_OK;
+}
+
+bsm_status check_frame(const bsm_frame& frame, const bsm_config& config) {
+  if (frame.disparity.data == nullptr) return BSM_ERROR_NULL;
+  if (frame.left.plane[0] == nullptr || frame.right.plane[0] == nullptr) return BSM_ERROR_NULL;
+  const ptrdiff_t row_bytes = ptrdiff_t{config.width} * pixel_bytes(config.format);
+  if (too_short(frame.left.stride[0], row_bytes, config.height)) return BSM_ERROR_STRIDE;
+  if (too_short(frame.right.stride[0], row_bytes, config.height)) return BSM_ERROR_STRIDE;
+  const bsm_status status = check_map(frame.disparity, config);
+  if (status != BSM_OK) return status;
+  if (frame.confidence.data != nullptr) {
+    if (config.confidence == 0) return BSM_ERROR_NO_CONFIDENCE;
+    if (too_short(frame.confidence.stride, config.width, config.height)) return BSM_ERROR_STRIDE;
+  }
+  if (frame.right_disparity.data == nullptr) return BSM_OK;
+  if (config.right_map == 0) return BSM_ERROR_NO_RIGHT_MAP;
+  return check_map(frame.right_disparity, config);
+}
+
+// Bytes for an arena of any alignment.
+uint64_t arena_bytes(const Plan& plan) {
+  return plan.bytes + kArenaAlignment - 1;
+}
+
+// Exponents of the refinement's distances, which depend on the configuration alone.
+void make_distance_steps(bsm_context* context) {
+  const Plan& plan = context->plan;
+  uint16_t* vote = reinterpret_cast<uint16_t*>(context->arena + plan.vote_steps);
+  for (int32_t dy = 0; plan.vote_radius != 0 && dy <= plan.vote_radius; ++dy) {
+    for (int32_t dx = 0; dx <= plan.vote_radius; ++dx) *vote++ = vote_distance_steps(dx, dy, context->config.vote_distance);
+  }
+  uint8_t* smooth = context->arena + plan.smooth_steps;
+  for (int32_t dy = 0; plan.smooth_radius != 0 && dy <= plan.smooth_radius; ++dy) {
+    for (int32_t dx = 0; dx <= plan.smooth_radius; ++dx) {
+      *smooth++ = smooth_distance_steps(dx, dy, context->config.smooth_distance);
+    }
+  }
+}
+
+// Out of line: the plan is large, and callers go on to run the library.
+BSM_NOINLINE bsm_status plan_bytes(const bsm_config* config, uint32_t features, size_t* bytes) {
+  const bsm_status status = validate_config(config);
+  if (status != BSM_OK) return status;
+  if (bytes == nullptr) return BSM_ERROR_NULL;
+  const Kernels kernels = select_kernels(features & config->isa_mask);
+  Plan plan;
+  make_plan(*config, kernels, sizeof(bsm_context), &plan);
+  const uint64_t needed = arena_bytes(plan);
+  if (needed > SIZE_MAX) return BSM_ERROR_MEMORY_SIZE;
+  *bytes = static_cast<size_t>(needed);
+  return BSM_OK;
+}
+
+constexpr RowSource kNoSource{};
+constexpr Parallel kSerial{};
+
+}  // namespace
+}  // namespace bsm
+
+using namespace bsm;
+
+extern "C" bsm_status bsm_memory_required_for(const bsm_config* config, uint32_t features, size_t* bytes) {
+  return plan_bytes(config, features, bytes);
+}
+
+extern "C" bsm_status bsm_memory_required(const bsm_config* config, size_t* bytes) {
+  return plan_bytes(config, cpu_features(), bytes);
+}
+
+extern "C" bsm_status bsm_row_delay(const bsm_config* config, int32_t* rows) {
+  const bsm_status status = validate_config(config);
+  if (status != BSM_OK) return status;
+  if (rows == nullptr) return BSM_ERROR_NULL;
+  *rows = row_delay(*config);
+  return BSM_OK;
+}
+
+extern "C" bsm_status bsm_open(const bsm_config* config, void* arena, size_t bytes, bsm_context** context) {
+  size_t needed = 0;
+  const bsm_status status = plan_bytes(config, cpu_features(), &needed);
+  if (status != BSM_OK) return status;
+  if (arena == nullptr || context == nullptr) return BSM_ERROR_NULL;
+  if (bytes < needed) return BSM_ERROR_ARENA;
+
+  uint8_t* base = static_cast<uint8_t*>(arena);
+  base += (kArenaAlignment - (reinterpret_cast<uintptr_t>(base) & (kArenaAlignment - 1))) & (kArenaAlignment - 1);
+  bsm_context* opened = reinterpret_cast<bsm_context*>(base);
+  opened->self = opened;
+  opened->arena = base;
+  opened->config = *config;
+  opened->kernels = select_kernels(cpu_features() & config->isa_mask);
+  opened->pattern = pattern_of(*config);
+  make_plan(*config, opened->kernels, sizeof(bsm_context), &opened->plan);
+  make_distance_steps(opened);
+  engine_reset(opened);
+  *context = opened;
+  return BSM_OK;
+}
+
+extern "C" bsm_status bsm_process(bsm_context* context, const bsm_frame* frame) {
+  if (check_context(context) != BSM_OK) return check_context(context);
+  if (frame == nullptr) return BSM_ERROR_NULL;
+  const bsm_status status = check_frame(*frame, context->config);
+  if (status != BSM_OK) return status;
+  if (context->entered != 0 && context->finished < context->height) return BSM_ERROR_STREAM_OPEN;
+
+  engine_reset(context);
+  const RowSource source{{frame->left, frame->right}, 0};
+  const RowSink sink{frame->disparity, frame->right_disparity, frame->confidence};
+  const Parallel parallel{frame->parallel_for, frame->parallel_user};
+  if (context->plan.whole_frame) engine_aggregate_frame(context, source, parallel);
+  while (context->finished < context->height) {
+    engine_advance(context, source, context->plan.batch, parallel);
+    engine_write(context, sink, parallel);
+  }
+  engine_reset(context);
+  return BSM_OK;
+}
+
+extern "C" bsm_status bsm_push_row(bsm_context* context, const bsm_row* left, const bsm_row* right) {
+  if (check_context(context) != BSM_OK) return check_context(context);
+  if (left == nullptr || right == nullptr || left->plane[0] == nullptr || right->plane[0] == nullptr) return BSM_ERROR_NULL;
+  if (context->plan.whole_frame) return BSM_ERROR_ROW_MODE;
+  if (context->ended) return BSM_ERROR_ROW_COUNT;
+  if (context->finished < engine_rows_out(*context)) return BSM_ERROR_PULL_FIRST;
+  RowSource source{};
+  source.image[kLeft].plane[0] = left->plane[0];
+  source.image[kRight].plane[0] = right->plane[0];
+  source.first_row = context->entered;
+  engine_advance(context, source, 1, kSerial);
+  context->ended = context->entered == context->height;
+  return BSM_OK;
+}
+
+extern "C" bsm_status bsm_pull_row(bsm_context* context, int16_t* disparity, int16_t* right_disparity, uint8_t* confidence) {
+  if (check_context(context) != BSM_OK) return check_context(context);
+  if (disparity == nullptr) return BSM_ERROR_NULL;
+  if (!is_even(disparity) || !is_even(right_disparity)) return BSM_ERROR_ALIGNMENT;
+  if (right_disparity != nullptr && context->config.right_map == 0) return BSM_ERROR_NO_RIGHT_MAP;
+  if (confidence != nullptr && context->config.confidence == 0) return BSM_ERROR_NO_CONFIDENCE;
+  if (context->plan.whole_frame) return BSM_ERROR_ROW_MODE;
+  if (context->ended && context->finished == context->height) return BSM_END;
+  while (context->ended && context->finished == engine_rows_out(*context)) {
+    engine_advance(context, kNoSource, 1, kSerial);
+  }
+  if (context->finished == engine_rows_out(*context)) return BSM_NEED_ROWS;
+  engine_write(context, RowSink{{disparity, 0}, {right_disparity, 0}, {confidence, 0}}, kSerial);  // one row: no strides
+  return BSM_OK;
+}
+
+extern "C" bsm_status bsm_finish(bsm_context* context) {
+  if (check_context(context) != BSM_OK) return check_context(context);
+  if (context->plan.whole_frame) return BSM_ERROR_ROW_MODE;
+  if (!context->ended) {
+    context->height = context->entered;
+    context->ended = true;
+  }
+  return BSM_OK;
+}
+
+extern "C" bsm_status bsm_reset(bsm_context* context) {
+  if (check_context(context) != BSM_OK) return check_context(context);
+  engine_reset(context);
+  return BSM_OK;
+}
+
+extern "C" const char* bsm_kernel_name(const bsm_context* context, bsm_kernel kernel) {
+  const int32_t index = static_cast<int32_t>(kernel);
+  if (check_context(context) != BSM_OK || index < 0 || index >= BSM_KERNEL_COUNT) return nullptr;
+  return context->kernels.name[index];
+}
+
+extern "C" uint32_t bsm_cpu_features(void) {
+  return cpu_features();
+}
+
+extern "C" const char* bsm_cpu_feature_name(int32_t bit) {
+  return cpu_feature_name(bit);
+}

@@ -1,0 +1,132 @@
+// Defaults and limits of a configuration.
+#include "core/config.h"
+
+#include "platform/compiler.h"
+
+namespace bsm {
+namespace {
+
+bool within(int32_t value, int32_t least, int32_t most) {
+  return least <= value && value <= most;
+}
+
+}  // namespace
+
+int32_t pixel_bytes(int32_t format) {
+  switch (format) {
+    case BSM_FORMAT_GRAY8:
+      return 1;
+    case BSM_FORMAT_RGB565:
+      return 2;
+    case BSM_FORMAT_RGB24:
+    case BSM_FORMAT_BGR24:
+      return 3;
+    default:
+      return 4;
+  }
+}
+
+bsm_status validate_config(const bsm_config* config) {
+  if (config == nullptr) return BSM_ERROR_NULL;
+  if (config->struct_size != sizeof(bsm_config)) return BSM_ERROR_STRUCT_SIZE;
+  for (const uint32_t reserved : config->reserved) {
+    if (reserved != 0) return BSM_ERROR_RESERVED;
+  }
+  if (!within(config->width, 1, BSM_MAX_SIZE)) return BSM_ERROR_WIDTH;
+  if (!within(config->height, 1, BSM_MAX_SIZE)) return BSM_ERROR_HEIGHT;
+  if (!within(config->min_disparity, BSM_MIN_DISPARITY, BSM_MAX_DISPARITY)) return BSM_ERROR_MIN_DISPARITY;
+  if (!within(config->num_disparities, 1, BSM_MAX_DISPARITY - config->min_disparity + 1)) return BSM_ERROR_NUM_DISPARITIES;
+  if (!within(config->method, BSM_METHOD_LOCAL, BSM_METHOD_SGM)) return BSM_ERROR_METHOD;
+  const bool sgm = config->method == BSM_METHOD_SGM;
+  const int32_t most_bits = sgm ? BSM_MAX_SGM_BITS : BSM_MAX_BITS;
+  if (!within(config->bits, BSM_MIN_BITS, most_bits) || config->bits % BSM_MIN_BITS != 0) return BSM_ERROR_BITS;
+  if (!within(config->stage, BSM_STAGE_COST, BSM_STAGE_REFINED)) return BSM_ERROR_STAGE;
+  if (config->stage == BSM_STAGE_AGGREGATED && !sgm) return BSM_ERROR_STAGE;
+  if (!within(config->format, BSM_FORMAT_GRAY8, BSM_FORMAT_RGB565)) return BSM_ERROR_FORMAT;
+  if (!within(config->paths, 3, 5) && config->paths != 8) return BSM_ERROR_PATHS;
+  if (!within(config->p1, 1, 16384) || !within(config->p2, config->p1, 16384)) return BSM_ERROR_PENALTY;
+  if (!within(config->edge_threshold, 1, 255) || !within(config->edge_divisor, 1, 64)) return BSM_ERROR_EDGE;
+  if (!within(config->right_costs, BSM_RIGHT_COSTS_OWN, BSM_RIGHT_COSTS_LEFT)) return BSM_ERROR_RIGHT_COSTS;
+  if (!within(config->subpixel, 0, 1)) return BSM_ERROR_SUBPIXEL;
+  if (!within(config->lr_tolerance, 0, 255)) return BSM_ERROR_TOLERANCE;
+  if (!within(config->speckle, 0, 100)) return BSM_ERROR_SPECKLE;
+  if (!within(config->border, 0, 1)) return BSM_ERROR_BORDER;
+  if (!within(config->vote_radius, 1, BSM_MAX_VOTE_RADIUS)) return BSM_ERROR_VOTE_RADIUS;
+  if (!within(config->vote_step, 1, config->vote_radius)) return BSM_ERROR_VOTE_STEP;
+  if (config->vote_radius % config->vote_step != 0) return BSM_ERROR_VOTE_STEP;
+  if (!within(config->vote_color, 1, 64)) return BSM_ERROR_VOTE_COLOR;
+  if (!within(config->vote_distance, 1, 64)) return BSM_ERROR_VOTE_DISTANCE;
+  if (!within(config->vote_cap, 0, 1)) return BSM_ERROR_VOTE_CAP;
+  if (!within(config->smooth_radius, 1, BSM_MAX_SMOOTH_RADIUS)) return BSM_ERROR_SMOOTH_RADIUS;
+  if (!within(config->smooth_passes, 0, BSM_MAX_SMOOTH_PASSES)) return BSM_ERROR_SMOOTH_PASSES;
+  if (!within(config->smooth_color, 1, 64)) return BSM_ERROR_SMOOTH_COLOR;
+  if (!within(config->smooth_distance, 2, 64)) return BSM_ERROR_SMOOTH_DISTANCE;
+  if (!within(config->median, 0, 1)) return BSM_ERROR_MEDIAN;
+  if (!within(config->right_map, 0, 1)) return BSM_ERROR_RIGHT_MAP;
+  if (!within(config->confidence, 0, 1)) return BSM_ERROR_CONFIDENCE;
+  if (!within(config->max_jobs, 1, BSM_MAX_JOBS)) return BSM_ERROR_JOBS;
+  return BSM_OK;
+}
+
+}  // namespace bsm
+
+extern "C" bsm_status bsm_config_init(bsm_config* config, int32_t width, int32_t height) {
+  if (config == nullptr) return BSM_ERROR_NULL;
+  BSM_MEMSET(config, 0, sizeof *config);
+  config->struct_size = sizeof *config;
+  config->width = width;
+  config->height = height;
+  config->format = BSM_FORMAT_RGB24;
+  config->num_disparities = 64;
+  config->stage = BSM_STAGE_REFINED;
+  config->max_jobs = 1;
+  config->isa_mask = BSM_ISA_ALL;
+  return bsm_config_preset(config, BSM_PRESET_BALANCED);
+}
+
+extern "C" bsm_status bsm_config_preset(bsm_config* config, bsm_preset preset) {
+  if (config == nullptr) return BSM_ERROR_NULL;
+  if (preset < BSM_PRESET_PAPER || preset > BSM_PRESET_BEST) return BSM_ERROR_PRESET;
+  const bool paper = preset == BSM_PRESET_PAPER;
+  const bool best = preset == BSM_PRESET_BEST;
+  const bool gray = !paper && config->format == BSM_FORMAT_GRAY8;  // luma alone tells less: its differences weigh more
+  config->method = paper ? BSM_METHOD_LOCAL : BSM_METHOD_SGM;
+  switch (preset) {
+    case BSM_PRESET_FAST:
+      config->bits = 128;
+      break;
+    case BSM_PRESET_BALANCED:
+      config->bits = 256;
+      break;
+    case BSM_PRESET_BEST:
+      config->bits = BSM_MAX_SGM_BITS;
+      break;
+    default:
+      config->bits = BSM_MAX_BITS;
+  }
+  config->paths = best ? 8 : 4;
+  config->p1 = best ? 60 : 160;  // more paths add up to more smoothness
+  config->p2 = best ? 600 : 1000;
+  config->edge_threshold = gray ? 12 : 24;
+  config->edge_divisor = 6;
+  config->right_costs = BSM_RIGHT_COSTS_OWN;
+  config->subpixel = paper ? 0 : 1;
+  config->lr_tolerance = 1;
+  config->speckle = 0;  // no gain where masked costs are aggregated
+  config->border = paper ? 0 : 1;
+  config->vote_radius = 24;
+  config->vote_step = paper ? 1 : 6;
+  config->vote_color = gray ? 4 : 9;
+  config->vote_distance = paper ? 16 : 10;
+  config->vote_cap = paper ? 0 : 1;
+  config->smooth_radius = best ? 5 : 4;
+  config->smooth_passes = paper ? 0 : 3;
+  config->smooth_color = gray ? 3 : 6;
+  config->smooth_distance = 7;
+  config->median = 1;
+  return BSM_OK;
+}
+
+extern "C" int16_t bsm_invalid_disparity(const bsm_config* config) {
+  return static_cast<int16_t>((config->min_disparity - 1) * BSM_DISPARITY_SCALE);
+}

@@ -1,0 +1,182 @@
+// Computes the memory plan. All sums are 64-bit: the largest configuration stays below 2^48 bytes.
+#include "core/plan.h"
+
+#include "core/border.h"
+#include "core/confidence.h"
+#include "core/pattern.h"
+#include "core/speckle.h"
+#include "platform/compiler.h"
+
+namespace bsm {
+namespace {
+
+uint64_t round_up(uint64_t value, uint64_t multiple) {
+  return (value + multiple - 1) / multiple * multiple;
+}
+
+// Hands out aligned pieces of a region one after the other.
+class Carver {
+ public:
+  uint64_t take(uint64_t bytes) {
+    const uint64_t offset = round_up(next_, kArenaAlignment);
+    next_ = offset + bytes;
+    return offset;
+  }
+  // A ring whose rows have `before` bytes in front of x = 0.
+  Ring take_ring(int32_t rows, uint64_t before, uint64_t row_bytes) {
+    const uint64_t stride = round_up(row_bytes, 8);
+    const uint64_t offset = rows == 0 ? 0 : take(static_cast<uint64_t>(rows) * stride) + before;
+    return Ring{offset, rows, static_cast<uint32_t>(stride)};
+  }
+  uint64_t used() const { return round_up(next_, kArenaAlignment); }
+
+ private:
+  uint64_t next_ = 0;
+};
+
+int32_t largest(int32_t a, int32_t b) {
+  return a < b ? b : a;
+}
+
+bool is_sgm(const bsm_config& config) {
+  return config.method == BSM_METHOD_SGM && config.stage >= BSM_STAGE_AGGREGATED;
+}
+
+// Stages that run, their radii and the delay they add up to.
+void plan_stages(const bsm_config& config, Plan* plan) {
+  const bool refined = config.stage == BSM_STAGE_REFINED;
+  plan->pattern_radius = pattern_of(config).radius;
+  plan->speckle_radius = refined && config.speckle != 0 ? kSpeckleRadius : 0;
+  plan->border_radius = refined && config.border != 0 ? kBorderRadius : 0;
+  plan->vote_radius = refined ? config.vote_radius : 0;
+  plan->smooth_passes = refined ? config.smooth_passes : 0;
+  plan->smooth_radius = plan->smooth_passes != 0 ? config.smooth_radius : 0;
+  plan->median_radius = refined ? config.median : 0;
+  plan->fraction_radius = refined && is_sgm(config) && config.subpixel != 0 ? kFractionRadius : 0;
+  plan->delay = plan->pattern_radius + plan->speckle_radius + plan->border_radius + plan->vote_radius +
+                plan->smooth_passes * plan->smooth_radius + plan->median_radius + 2 * plan->fraction_radius;
+  // The confidence of a row asks neighbours below it, whose winners must be known.
+  const int32_t known_rows = plan->delay - plan->pattern_radius - plan->speckle_radius;
+  plan->wait = config.confidence != 0 && known_rows < kConfidenceRadius ? kConfidenceRadius - known_rows : 0;
+  plan->delay += plan->wait;
+  plan->batch = config.max_jobs == 1 ? 1 : 4 * config.max_jobs;
+  plan->across_paths = !is_sgm(config) ? 0 : config.paths == 8 ? kMaxAcrossPaths : config.paths - 2;
+  plan->whole_frame = is_sgm(config) && config.paths == 8;
+  const bool masked = config.stage != BSM_STAGE_COST;
+  plan->planes = !masked ? 0 : config.format == BSM_FORMAT_GRAY8 ? 1 : 3;
+}
+
+// Bytes of one row's costs of all levels.
+uint64_t cost_bytes(const bsm_config& config, const Plan& plan) {
+  return uint64_t{static_cast<uint32_t>(config.width)} * static_cast<uint32_t>(plan.level_stride) * sizeof(uint16_t);
+}
+
+JobPlan plan_job(const bsm_config& config, const Kernels& kernels, const Plan& plan, uint64_t width) {
+  const uint64_t descriptors = width * static_cast<uint32_t>(config.bits / 8);
+  const bool sgm = is_sgm(config);
+  const bool right_own = sgm && config.right_costs == BSM_RIGHT_COSTS_OWN;
+  const bool right_mask = plan.planes != 0 && (right_own || !sgm);
+  const uint64_t window_rows =
+      2 * static_cast<uint64_t>(largest(plan.pattern_radius, largest(plan.vote_radius, plan.smooth_radius))) + 1;
+  const KernelShape shape{config.width, config.bits, plan.pattern_radius, plan.planes, config.num_disparities};
+  JobPlan job{};
+  Carver carver;
+  for (int32_t view = 0; view < kViews; ++view) {
+    job.descriptor[view] = carver.take(descriptors);
+    job.mask[view] = carver.take(plan.planes == 0 || (view == kRight && !right_mask) ? 0 : descriptors);
+  }
+  job.edge = carver.take(sgm ? width : 0);
+  job.row = carver.take(width * sizeof(uint16_t));
+  job.window = carver.take(2 * window_rows * sizeof(void*));
+  job.kernel = carver.take(kernel_scratch_bytes(kernels, shape));
+  job.bytes = carver.used();
+  return job;
+}
+
+}  // namespace
+
+Pattern pattern_of(const bsm_config& config) {
+  return config.method == BSM_METHOD_SGM ? sgm_pattern(config.bits) : local_pattern(config.bits);
+}
+
+int32_t row_delay(const bsm_config& config) {
+  Plan plan{};
+  plan_stages(config, &plan);
+  return plan.delay;
+}
+
+void make_plan(const bsm_config& config, const Kernels& kernels, uint64_t context_bytes, Plan* out) {
+  Plan& plan = *out;
+  BSM_MEMSET(&plan, 0, sizeof plan);
+  plan_stages(config, &plan);
+  const bool refined = config.stage == BSM_STAGE_REFINED;
+  const bool sgm = is_sgm(config);
+
+  // Rows enter with lag 0; a stage's lag is the sum of the radii up to it. In one batch a stage writes the rows
+  // c - lag .. c - lag + batch - 1, and each ring spans from the oldest row that a later stage reads to the newest written.
+  const int32_t batch = plan.batch + plan.wait;  // finished rows stay until they are written
+  const int32_t pattern = plan.pattern_radius;
+  const int32_t speckle = plan.speckle_radius;
+  const int32_t border = plan.border_radius;
+  const int32_t vote = plan.vote_radius;
+  const int32_t smooth = plan.smooth_radius;
+  const int32_t passes = plan.smooth_passes;
+  const int32_t median = plan.median_radius;
+  const int32_t vote_lag = pattern + speckle + border + vote;
+  const int32_t window_rows = batch + 2 * pattern;
+  const int32_t refine_lab_rows = batch + largest(2 * pattern, vote_lag + largest(vote, (passes + 1) * smooth));
+  const int32_t fraction = plan.fraction_radius;
+  const int32_t kept_rows = plan.delay - pattern;  // from a row's winners to its output
+  const int32_t confidence_rows = config.confidence != 0 ? kept_rows - speckle + kConfidenceRadius : 0;
+  const int32_t level_rows = batch + largest(confidence_rows, border + vote + largest(vote, passes * smooth + median));
+  const int32_t voted_rows = refined ? batch + largest(1, smooth != 0 ? 2 * smooth : 2 * median) : 0;
+  const int32_t all = plan.whole_frame ? config.height : 0;  // whole-frame plans keep every row between the two passes
+
+  const uint64_t width = round_up(static_cast<uint32_t>(config.width), static_cast<uint32_t>(kernels.block[kPixels]));
+  const uint64_t pad = static_cast<uint32_t>(pattern);
+  const uint64_t padded = width + 2 * pad;
+  plan.plane_stride = static_cast<int32_t>(padded);
+  plan.level_stride = static_cast<int32_t>(
+      round_up(static_cast<uint32_t>(config.num_disparities), static_cast<uint32_t>(kernels.block[kLevels])));
+
+  Carver carver;
+  carver.take(context_bytes);
+  for (int32_t view = 0; view < kViews; ++view) {
+    const bool wanted = view == kLeft || config.right_map != 0;
+    const int32_t lab_rows = refined && wanted ? refine_lab_rows : window_rows;
+    plan.luma[view] = carver.take_ring(window_rows, pad * sizeof(uint16_t), padded * sizeof(uint16_t));
+    plan.lab[view] =
+        carver.take_ring(plan.planes == 0 ? 0 : largest(lab_rows, all), pad, padded * static_cast<uint32_t>(plan.planes));
+    plan.winner[view] = carver.take_ring(largest(batch, all), 0, width * sizeof(uint16_t));
+    plan.checked[view] = carver.take_ring(wanted && speckle != 0 ? batch + 2 * speckle : 0, 0, width * sizeof(uint16_t));
+    plan.level[view] = carver.take_ring(wanted ? level_rows : 0, 0, width * sizeof(uint16_t));
+    plan.fit[view] =
+        carver.take_ring(wanted && border != 0 ? batch + largest(2 * border, confidence_rows) : 0, 0, sizeof(BorderFit));
+    plan.voted[view] = carver.take_ring(wanted ? voted_rows : 0, 0, width * sizeof(uint16_t));
+    const int32_t fraction_rows = wanted && fraction != 0 ? batch + 2 * fraction : 0;
+    plan.fraction[view] = carver.take_ring(fraction_rows, 0, width * sizeof(uint16_t));
+    plan.fraction_weight[view] = carver.take_ring(fraction_rows == 0 ? 0 : fraction_rows + fraction, 0, width);
+    plan.fraction_once[view] = carver.take_ring(fraction_rows, 0, width * sizeof(uint16_t));
+    for (int32_t pass = 0; pass < passes; ++pass) {
+      const int32_t rows = batch + 2 * (pass + 1 < passes ? smooth : median);
+      plan.smoothed[pass][view] = carver.take_ring(wanted ? rows : 0, 0, width * sizeof(uint16_t));
+    }
+  }
+  plan.margin = carver.take_ring(sgm && config.confidence != 0 ? batch + kept_rows : 0, 0, width);
+  const uint64_t costs = cost_bytes(config, plan);
+  plan.cost = carver.take_ring(sgm ? largest(batch, all) : 0, 0, costs);
+  plan.sum = carver.take_ring(sgm ? largest(batch, all) : 0, 0, costs);
+  // One row at a time, a path's costs are updated in place.
+  for (int32_t i = 0; i < kMaxAcrossPaths; ++i) {
+    plan.path[i] = carver.take_ring(i >= plan.across_paths ? 0 : batch == 1 ? 1 : batch + 1, 0, costs);
+  }
+  const uint64_t vote_side = refined ? static_cast<uint32_t>(vote + 1) : 0;
+  plan.vote_steps = carver.take(vote_side * vote_side * sizeof(uint16_t));
+  const uint64_t smooth_side = smooth != 0 ? static_cast<uint32_t>(smooth + 1) : 0;
+  plan.smooth_steps = carver.take(smooth_side * smooth_side);
+  plan.job = plan_job(config, kernels, plan, width);
+  plan.jobs = carver.take(plan.job.bytes * static_cast<uint32_t>(config.max_jobs));
+  plan.bytes = carver.used();
+}
+
+}  // namespace bsm

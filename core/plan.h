@@ -1,0 +1,90 @@
+// The memory plan: every buffer of a context, as offsets into the caller's arena. The same plan answers how many bytes a
+// configuration takes and carves them.
+#ifndef BSM_CORE_PLAN_H
+#define BSM_CORE_PLAN_H
+
+#include <stdint.h>
+
+#include "bsm/bsm.h"
+#include "simd/kernels.h"
+
+namespace bsm {
+
+constexpr uint64_t kArenaAlignment = 64;
+
+enum View : int32_t { kLeft = 0, kRight = 1, kViews = 2 };
+
+constexpr int32_t kMaxAcrossPaths = 3;  // from the row before: straight, from the left, from the right
+
+// A ring of rows: row y lives at offset + (y % rows) * stride.
+struct Ring {
+  uint64_t offset;  // of x = 0 in slot 0, in bytes
+  int32_t rows;     // 0: not needed
+  uint32_t stride;  // bytes between slots
+};
+
+// Scratch of one job, as offsets from the job's own base.
+struct JobPlan {
+  uint64_t descriptor[kViews];
+  uint64_t mask[kViews];
+  uint64_t edge;    // sgm: colour edges of one row
+  uint64_t row;     // one 16-bit value per pixel
+  uint64_t window;  // pointers to the rows of a window: of the pattern, or levels and then CIELAB of the refinement
+  uint64_t kernel;  // scratch of the kernel that runs
+  uint64_t bytes;
+};
+
+struct Plan {
+  // Rows that each stage looks beyond the row it writes; 0 for stages that do not run.
+  int32_t pattern_radius;
+  int32_t speckle_radius;
+  int32_t border_radius;
+  int32_t vote_radius;
+  int32_t smooth_radius;
+  int32_t smooth_passes;
+  int32_t median_radius;
+  int32_t fraction_radius;  // of each of two passes
+  int32_t wait;             // rows that output waits for the confidence
+  int32_t delay;            // sum of them: rows from input to output
+
+  int32_t batch;         // rows that move through the stages together
+  int32_t across_paths;  // paths from the row before
+  bool whole_frame;      // paths from below run over the whole frame before a row goes out
+  int32_t planes;        // CIELAB planes kept: 0, 1 or 3
+  int32_t plane_stride;  // bytes between the CIELAB planes of a row
+  int32_t level_stride;  // costs between the pixels of a row
+
+  Ring luma[kViews];
+  Ring lab[kViews];
+  Ring cost;                                     // sgm: the left view's costs
+  Ring path[kMaxAcrossPaths];                    // sgm: L of the paths from the row before
+  Ring sum;                                      // sgm: the left view's sums
+  Ring winner[kViews];                           // winners, in 1/16 pixel
+  Ring checked[kViews];                          // checked winners before the speckle filter
+  Ring level[kViews];                            // winners, checked from BSM_STAGE_CHECKED on
+  Ring fit[kViews];                              // one BorderFit a row
+  Ring voted[kViews];                            // dense: holes filled
+  Ring smoothed[BSM_MAX_SMOOTH_PASSES][kViews];  // after each pass of the weighted median
+  Ring fraction[kViews];                         // sub-pixel levels before the two passes of smoothing
+  Ring fraction_weight[kViews];
+  Ring fraction_once[kViews];  // after the first pass
+  Ring margin;                 // sgm with confidence: one byte a pixel
+  uint64_t vote_steps;
+  uint64_t smooth_steps;
+  uint64_t jobs;  // max_jobs times JobPlan::bytes
+  JobPlan job;
+  uint64_t bytes;  // of the whole arena when it begins at a multiple of kArenaAlignment
+};
+
+// The pair pattern of a configuration.
+Pattern pattern_of(const bsm_config& config);
+
+// config is valid; context_bytes is reserved at offset 0.
+void make_plan(const bsm_config& config, const Kernels& kernels, uint64_t context_bytes, Plan* plan);
+
+// Rows from input to output.
+int32_t row_delay(const bsm_config& config);
+
+}  // namespace bsm
+
+#endif  // BSM_CORE_PLAN_H

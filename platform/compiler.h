@@ -1,0 +1,59 @@
+// Compiler facts: the machine's family, memory intrinsics without libc headers. Includes nothing of ours.
+#ifndef BSM_PLATFORM_COMPILER_H
+#define BSM_PLATFORM_COMPILER_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__x86_64__) || defined(__i386__) || defined(_M_X64) || defined(_M_IX86)
+#define BSM_ARCH_X86 1
+#else
+#define BSM_ARCH_X86 0
+#endif
+#if (defined(__x86_64__) || defined(_M_X64)) && (defined(__GNUC__) || defined(__clang__))
+#define BSM_ARCH_X86_64 1  // with the kernels' intrinsics and flags
+#else
+#define BSM_ARCH_X86_64 0
+#endif
+#if defined(__aarch64__) || defined(__arm__) || defined(_M_ARM64) || defined(_M_ARM)
+#define BSM_ARCH_ARM 1
+#else
+#define BSM_ARCH_ARM 0
+#endif
+// NEON with the kernels' intrinsics and flags: AArch64, or an ARMv7 that passes arguments to them; little-endian.
+#if (defined(__GNUC__) || defined(__clang__)) && !defined(__ARM_BIG_ENDIAN) && defined(__aarch64__)
+#define BSM_ARCH_NEON 1
+#elif (defined(__GNUC__) || defined(__clang__)) && !defined(__ARM_BIG_ENDIAN) && defined(__arm__) && \
+    defined(__ARM_ARCH_PROFILE) && !defined(__SOFTFP__)
+#define BSM_ARCH_NEON (__ARM_ARCH_PROFILE == 'A')
+#else
+#define BSM_ARCH_NEON 0
+#endif
+
+// Before a loop of a constant few rounds: unrolled whole, so that arrays indexed in it live in registers.
+#if defined(__clang__)
+#define BSM_UNROLL _Pragma("unroll")
+#elif defined(__GNUC__)
+#define BSM_UNROLL _Pragma("GCC unroll 16")
+#else
+#define BSM_UNROLL
+#endif
+
+#if defined(__GNUC__) || defined(__clang__)
+#define BSM_MEMCPY(to, from, bytes) __builtin_memcpy((to), (from), (bytes))
+#define BSM_MEMSET(to, byte, bytes) __builtin_memset((to), (byte), (bytes))
+#define BSM_RESTRICT __restrict__
+#define BSM_NOINLINE __attribute__((noinline))
+#define BSM_KEEP_ORDER() __asm__ volatile("" ::: "memory")  // loads below stay below: fewer values wait in registers
+#define BSM_INLINE inline __attribute__((always_inline))
+#else
+#include <string.h>
+#define BSM_MEMCPY(to, from, bytes) memcpy((to), (from), (bytes))
+#define BSM_MEMSET(to, byte, bytes) memset((to), (byte), (bytes))
+#define BSM_RESTRICT __restrict
+#define BSM_NOINLINE __declspec(noinline)
+#define BSM_KEEP_ORDER()
+#define BSM_INLINE __forceinline
+#endif
+
+#endif  // BSM_PLATFORM_COMPILER_H

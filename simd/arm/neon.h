@@ -1,0 +1,143 @@
+// NEON for the kernels of both word sizes: one name for what AArch64 does in one instruction and ARMv7 in several.
+#ifndef BSM_SIMD_ARM_NEON_H
+#define BSM_SIMD_ARM_NEON_H
+
+#include <arm_neon.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "platform/compiler.h"
+
+namespace bsm {
+namespace {
+
+// Sums of neighbouring lanes: those of a in the lower half of the result, those of b in the upper one.
+inline uint8x16_t add_pairs8(uint8x16_t a, uint8x16_t b) {
+#if defined(__aarch64__)
+  return vpaddq_u8(a, b);
+#else
+  return vcombine_u8(vpadd_u8(vget_low_u8(a), vget_high_u8(a)), vpadd_u8(vget_low_u8(b), vget_high_u8(b)));
+#endif
+}
+
+inline uint16x8_t add_pairs16(uint16x8_t a, uint16x8_t b) {
+#if defined(__aarch64__)
+  return vpaddq_u16(a, b);
+#else
+  return vcombine_u16(vpadd_u16(vget_low_u16(a), vget_high_u16(a)), vpadd_u16(vget_low_u16(b), vget_high_u16(b)));
+#endif
+}
+
+inline uint8_t least8(uint8x16_t a) {
+#if defined(__aarch64__)
+  return vminvq_u8(a);
+#else
+  uint8x8_t least = vpmin_u8(vget_low_u8(a), vget_high_u8(a));
+  least = vpmin_u8(least, least);
+  least = vpmin_u8(least, least);
+  return vget_lane_u8(vpmin_u8(least, least), 0);
+#endif
+}
+
+inline uint8_t most8(uint8x16_t a) {
+#if defined(__aarch64__)
+  return vmaxvq_u8(a);
+#else
+  uint8x8_t most = vpmax_u8(vget_low_u8(a), vget_high_u8(a));
+  most = vpmax_u8(most, most);
+  most = vpmax_u8(most, most);
+  return vget_lane_u8(vpmax_u8(most, most), 0);
+#endif
+}
+
+inline uint16_t least16(uint16x8_t a) {
+#if defined(__aarch64__)
+  return vminvq_u16(a);
+#else
+  uint16x4_t least = vpmin_u16(vget_low_u16(a), vget_high_u16(a));
+  least = vpmin_u16(least, least);
+  return vget_lane_u16(vpmin_u16(least, least), 0);
+#endif
+}
+
+inline uint16_t most16(uint16x8_t a) {
+#if defined(__aarch64__)
+  return vmaxvq_u16(a);
+#else
+  uint16x4_t most = vpmax_u16(vget_low_u16(a), vget_high_u16(a));
+  most = vpmax_u16(most, most);
+  return vget_lane_u16(vpmax_u16(most, most), 0);
+#endif
+}
+
+inline uint32_t least32(uint32x4_t a) {
+#if defined(__aarch64__)
+  return vminvq_u32(a);
+#else
+  const uint32x2_t least = vpmin_u32(vget_low_u32(a), vget_high_u32(a));
+  return vget_lane_u32(vpmin_u32(least, least), 0);
+#endif
+}
+
+inline uint32_t sum16(uint16x8_t a) {
+#if defined(__aarch64__)
+  return vaddlvq_u16(a);
+#else
+  const uint64x2_t sums = vpaddlq_u32(vpaddlq_u16(a));
+  return static_cast<uint32_t>(vgetq_lane_u64(sums, 0) + vgetq_lane_u64(sums, 1));
+#endif
+}
+
+// A table of 128 bytes; indices are below 128.
+#if defined(__aarch64__)
+struct Table128 {
+  uint8x16x4_t low, high;
+};
+
+inline Table128 load_table128(const uint8_t* from) {
+  Table128 table;
+  for (int32_t i = 0; i < 4; ++i) {
+    table.low.val[i] = vld1q_u8(from + 16 * i);
+    table.high.val[i] = vld1q_u8(from + 64 + 16 * i);
+  }
+  return table;
+}
+
+inline uint8x16_t look_up(const Table128& table, uint8x16_t index) {
+  const uint8x16_t low = vqtbl4q_u8(table.low, index);  // 0 from 64 on
+  return vqtbx4q_u8(low, table.high, vsubq_u8(index, vdupq_n_u8(64)));
+}
+#else
+struct Table128 {
+  uint8x8x4_t quarters[4];
+};
+
+inline Table128 load_table128(const uint8_t* from) {
+  Table128 table;
+  for (int32_t i = 0; i < 16; ++i) table.quarters[i / 4].val[i % 4] = vld1_u8(from + 8 * i);
+  return table;
+}
+
+inline uint8x8_t look_up_half(const Table128& table, uint8x8_t index) {
+  uint8x8_t value = vtbl4_u8(table.quarters[0], index);  // 0 from 32 on
+  for (int32_t i = 1; i < 4; ++i) {
+    index = vsub_u8(index, vdup_n_u8(32));
+    value = vtbx4_u8(value, table.quarters[i], index);
+  }
+  return value;
+}
+
+inline uint8x16_t look_up(const Table128& table, uint8x16_t index) {
+  return vcombine_u8(look_up_half(table, vget_low_u8(index)), look_up_half(table, vget_high_u8(index)));
+}
+#endif
+
+// Eight bytes, zeros above them.
+inline uint8x16_t load_half(const uint8_t* from) {
+  return vcombine_u8(vld1_u8(from), vdup_n_u8(0));
+}
+
+}  // namespace
+}  // namespace bsm
+
+#endif  // BSM_SIMD_ARM_NEON_H

@@ -1,0 +1,48 @@
+// Selection: from CPU features to the table of kernels, by the list in simd/kernels.def.
+#include "simd/kernels.h"
+
+namespace bsm {
+namespace {
+
+// Position of each stage in the tables of Kernels.
+enum StageIndex : int32_t {
+#define BSM_STAGE(stage, operation, Args, axis) stage##_##operation##_index,
+#include "simd/stages.def"
+#undef BSM_STAGE
+  kStageCount
+};
+static_assert(int32_t{kStageCount} == int32_t{BSM_KERNEL_COUNT}, "bsm_kernel names every stage of simd/stages.def");
+
+}  // namespace
+
+Kernels select_kernels(uint32_t features) {
+  Kernels kernels{};
+  int32_t blocks[kStageCount] = {};
+#define BSM_KERNEL(stage, operation, isa, required, stage_block)                          \
+  if (((required) & ~features) == 0) {                                                    \
+    kernels.stage##_##operation = stage##_##operation##_##isa;                            \
+    kernels.name[stage##_##operation##_index] = #stage "_" #operation "_" #isa;           \
+    kernels.scratch[stage##_##operation##_index] = stage##_##operation##_##isa##_scratch; \
+    blocks[stage##_##operation##_index] = (stage_block);                                  \
+  }
+#include "simd/kernels.def"
+#undef BSM_KERNEL
+  for (int32_t& block : kernels.block) block = 1;
+#define BSM_STAGE(stage, operation, Args, axis)                                                                         \
+  kernels.block[axis] = kernels.block[axis] < blocks[stage##_##operation##_index] ? blocks[stage##_##operation##_index] \
+                                                                                  : kernels.block[axis];
+#include "simd/stages.def"
+#undef BSM_STAGE
+  return kernels;
+}
+
+uint64_t kernel_scratch_bytes(const Kernels& kernels, const KernelShape& shape) {
+  uint64_t most = 0;
+  for (kernel_scratch_fn* scratch : kernels.scratch) {
+    const uint64_t bytes = scratch(shape);
+    most = most < bytes ? bytes : most;
+  }
+  return most;
+}
+
+}  // namespace bsm

@@ -1,0 +1,80 @@
+// The window offsets that a pattern uses, numbered row by row, and its pairs by those numbers: for the mask kernels, which
+// look at every offset once however many pairs it is in.
+#ifndef BSM_SIMD_PATTERN_POINTS_H
+#define BSM_SIMD_PATTERN_POINTS_H
+
+#include "platform/compiler.h"
+#include "simd/kernels.h"
+
+namespace bsm {
+namespace {
+
+constexpr int32_t kMaxPoints = kMaxWindowSide * kMaxWindowSide;
+
+struct PatternPoints {
+  struct Point {
+    int8_t dx, dy;
+  };
+  int32_t count;
+  uint32_t pairs[BSM_MAX_BITS];  // 8 times the number of point p, 8 times that of q above it: one load for both
+  uint16_t number[kMaxPoints];   // by window offset
+  Point points[kMaxPoints];
+};
+
+inline int32_t window_index(int32_t dx, int32_t dy, int32_t radius) {
+  return (dy + radius) * (2 * radius + 1) + dx + radius;
+}
+
+inline void number_points(const Pattern& pattern, PatternPoints& out) {
+  const int32_t radius = pattern.radius;
+  const int32_t side = 2 * radius + 1;
+  BSM_MEMSET(out.number, 0, sizeof out.number);
+  for (int32_t i = 0; i < pattern.bits; ++i) {
+    const PixelPair& pair = pattern.pairs[i];
+    out.number[window_index(pair.px, pair.py, radius)] = 1;
+    out.number[window_index(pair.qx, pair.qy, radius)] = 1;
+  }
+  out.count = 0;
+  for (int32_t i = 0; i < side * side; ++i) {
+    if (out.number[i] == 0) continue;
+    out.number[i] = static_cast<uint16_t>(8 * out.count);
+    out.points[out.count++] =
+        PatternPoints::Point{static_cast<int8_t>(i % side - radius), static_cast<int8_t>(i / side - radius)};
+  }
+  for (int32_t i = 0; i < pattern.bits; ++i) {
+    const PixelPair& pair = pattern.pairs[i];
+    const uint32_t p = out.number[window_index(pair.px, pair.py, radius)];
+    const uint32_t q = out.number[window_index(pair.qx, pair.qy, radius)];
+    out.pairs[i] = p | q << 16;
+  }
+}
+
+// T of one pixel from the SADs of its points, exactly: for thresholds that a byte does not hold. Fills sad and histogram.
+inline uint32_t exact_threshold(const MaskThresholdArgs& args, int32_t x, const PatternPoints& points, uint16_t* sad,
+                                uint16_t* histogram) {
+  const uint8_t* const* rows = args.rows + args.pattern.radius;
+  for (int32_t i = 0; i < points.count; ++i) {
+    uint32_t sum = 0;
+    for (int32_t plane = 0; plane < args.planes; ++plane) {
+      const ptrdiff_t offset = plane * args.plane_stride + x;
+      const int32_t difference = rows[0][offset] - rows[points.points[i].dy][offset + points.points[i].dx];
+      sum += static_cast<uint32_t>(difference < 0 ? -difference : difference);
+    }
+    sad[i] = static_cast<uint16_t>(sum);
+  }
+  BSM_MEMSET(histogram, 0, sizeof(uint16_t) * (kMaxSad + 1));
+  for (int32_t i = 0; i < args.pattern.bits; ++i) {
+    const uint16_t p = sad[(points.pairs[i] & 0xffff) / 8];
+    const uint16_t q = sad[(points.pairs[i] >> 16) / 8];
+    ++histogram[p < q ? q : p];
+  }
+  uint32_t threshold = 0;
+  int32_t counted = histogram[0];
+  while (counted < args.pattern.bits / 4) counted += histogram[++threshold];
+  return threshold;
+}
+
+}  // namespace
+}  // namespace bsm
+
+#endif  // BSM_SIMD_PATTERN_POINTS_H

@@ -1,0 +1,76 @@
+// color_lab, scalar: input pixels to luma and CIELAB, one pixel at a time.
+#include "bsm/bsm.h"
+#include "simd/kernels.h"
+#include "simd/lab.h"
+
+namespace bsm {
+namespace {
+
+struct Rgb {
+  uint8_t r, g, b;
+};
+
+template <int kBytes, int kRed, int kBlue>
+struct Interleaved {
+  static constexpr int32_t bytes = kBytes;
+  static Rgb load(const uint8_t* p) { return Rgb{p[kRed], p[1], p[kBlue]}; }
+};
+
+// Bits are replicated downwards, so that full scale stays full scale.
+struct Packed565 {
+  static constexpr int32_t bytes = 2;
+  static Rgb load(const uint8_t* p) {
+    const uint32_t r = p[1] >> 3;
+    const uint32_t g = ((p[1] & 7u) << 3) | (p[0] >> 5);
+    const uint32_t b = p[0] & 31u;
+    return Rgb{static_cast<uint8_t>((r << 3) | (r >> 2)), static_cast<uint8_t>((g << 2) | (g >> 4)),
+               static_cast<uint8_t>((b << 3) | (b >> 2))};
+  }
+};
+
+template <class Format>
+void convert_color(const ColorLabArgs& args) {
+  for (int32_t x = 0; x < args.width; ++x) {
+    const Rgb pixel = Format::load(args.source + ptrdiff_t{x} * Format::bytes);
+    if (args.luma != nullptr) args.luma[x] = luma_from_rgb(pixel.r, pixel.g, pixel.b);
+    if (args.lab != nullptr) {
+      const Lab lab = lab_from_rgb(pixel.r, pixel.g, pixel.b);
+      args.lab[x] = lab.l;
+      args.lab[args.plane_stride + x] = lab.a;
+      args.lab[2 * args.plane_stride + x] = lab.b;
+    }
+  }
+}
+
+void convert_gray(const ColorLabArgs& args) {
+  for (int32_t x = 0; x < args.width; ++x) {
+    const uint8_t value = args.source[x];
+    if (args.luma != nullptr) args.luma[x] = luma_from_rgb(value, value, value);
+    if (args.lab != nullptr) args.lab[x] = lab_l_from_gray(value);
+  }
+}
+
+}  // namespace
+
+uint64_t color_lab_scalar_scratch(const KernelShape&) {
+  return 0;
+}
+
+void color_lab_scalar(const ColorLabArgs& args) {
+  switch (args.format) {
+    case BSM_FORMAT_GRAY8:
+      return convert_gray(args);
+    case BSM_FORMAT_RGB24:
+      return convert_color<Interleaved<3, 0, 2>>(args);
+    case BSM_FORMAT_BGR24:
+      return convert_color<Interleaved<3, 2, 0>>(args);
+    case BSM_FORMAT_RGBA32:
+      return convert_color<Interleaved<4, 0, 2>>(args);
+    case BSM_FORMAT_BGRA32:
+      return convert_color<Interleaved<4, 2, 0>>(args);
+    default:
+      return convert_color<Packed565>(args);
+  }
+}
+
+}  // namespace bsm

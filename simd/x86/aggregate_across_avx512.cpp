@@ -1,0 +1,20 @@
+// aggregate_across, AVX-512 BW.
+#include "platform/compiler.h"
+
+#if BSM_ARCH_X86_64
+#include "simd/x86/levels_avx512.h"
+
+#include "simd/x86/aggregate_across_lanes.h"
+
+namespace bsm {
+
+uint64_t aggregate_across_avx512_scratch(const KernelShape&) {
+  return 0;
+}
+
+void aggregate_across_avx512(const AggregateAcrossArgs& args) {
+  aggregate_across(args);
+}
+
+}  // namespace bsm
+#endif

@@ -1,0 +1,20 @@
+// descriptor_compare, SSE4.2.
+#include "platform/compiler.h"
+
+#if BSM_ARCH_X86_64
+#include "simd/x86/lanes_sse42.h"
+
+#include "simd/x86/descriptor_compare_lanes.h"
+
+namespace bsm {
+
+uint64_t descriptor_compare_sse42_scratch(const KernelShape&) {
+  return kDescriptorScratch;
+}
+
+void descriptor_compare_sse42(const DescriptorCompareArgs& args) {
+  compare_descriptors(args);
+}
+
+}  // namespace bsm
+#endif

@@ -1,0 +1,254 @@
+// mask_threshold, AVX-512 BW, VBMI, GFNI: 64 neighbouring pixels at once.
+// The SAD of every window offset in use is one byte a pixel, saturated at 255. A pass tries eight thresholds: bit j of a
+// byte says that the SAD is within threshold j, a pair is one AND, and carry-save adders count each of the 512 bits over all
+// pairs: 3 operations and 2 loads for 512 (pixel, threshold, pair) triples. Two or three passes find T. With T known, one
+// compare an offset gives a word of 64 pixels and each pair is one AND of two words.
+#include "platform/compiler.h"
+
+#if BSM_ARCH_X86_64
+#include "simd/kernels.h"
+#include "simd/pattern_points.h"
+#include "simd/x86/transpose_avx512.h"
+
+namespace bsm {
+namespace {
+
+constexpr int32_t kHighLevels = 7;  // bits of a count from 64 on
+
+struct alignas(64) Scratch {
+  uint8_t sad[kMaxPoints][64];
+  uint8_t within[kMaxPoints][64];  // bit j: the SAD is within threshold j
+  __m512i high[kHighLevels];
+  uint64_t tile[kTileWords];
+  uint64_t words[kTileWords];
+  uint64_t point_words[kMaxPoints];
+  uint16_t exact_sad[kMaxPoints];
+  uint16_t histogram[kMaxSad + 1];
+  PatternPoints points;
+};
+
+inline __m512i distance(__m512i a, __m512i b) {
+  return _mm512_sub_epi8(_mm512_max_epu8(a, b), _mm512_min_epu8(a, b));
+}
+
+template <int32_t kPlanes>
+void window_sad(const MaskThresholdArgs& args, int32_t x, Scratch& scratch) {
+  const uint8_t* const* rows = args.rows + args.pattern.radius;
+  __m512i center[kPlanes];
+  for (int32_t i = 0; i < kPlanes; ++i) center[i] = _mm512_loadu_si512(rows[0] + x + i * args.plane_stride);
+  for (int32_t i = 0; i < scratch.points.count; ++i) {
+    const uint8_t* at = rows[scratch.points.points[i].dy] + x + scratch.points.points[i].dx;
+    __m512i sad = distance(center[0], _mm512_loadu_si512(at));
+    for (int32_t plane = 1; plane < kPlanes; ++plane) {
+      sad = _mm512_adds_epu8(sad, distance(center[plane], _mm512_loadu_si512(at + plane * args.plane_stride)));
+    }
+    _mm512_store_si512(scratch.sad[i], sad);
+  }
+}
+
+// sum and carry of three bits.
+inline __m512i sum3(__m512i a, __m512i b, __m512i c) {
+  return _mm512_ternarylogic_epi64(a, b, c, 0x96);
+}
+inline __m512i carry3(__m512i a, __m512i b, __m512i c) {
+  return _mm512_ternarylogic_epi64(a, b, c, 0xe8);
+}
+
+struct Counter {
+  __m512i level[6];  // bits 0..5 of 512 counts
+};
+
+// Adds the bits a and b to a level; returns the carry.
+template <int32_t kLevel>
+BSM_INLINE __m512i add(Counter& counter, __m512i a, __m512i b) {
+  const __m512i old = counter.level[kLevel];
+  counter.level[kLevel] = sum3(old, a, b);
+  return carry3(old, a, b);
+}
+
+BSM_INLINE __m512i pair_within(const Scratch& scratch, uint32_t pair) {
+  const uint8_t* within = scratch.within[0];
+  const __m512i p = _mm512_load_si512(within + 8 * ptrdiff_t{pair & 0xffff});
+  return _mm512_and_si512(p, _mm512_load_si512(within + 8 * ptrdiff_t{pair >> 16}));
+}
+
+template <int32_t kLevel>
+BSM_INLINE __m512i add_pairs(Counter& counter, const Scratch& scratch, const uint32_t* pairs) {
+  if constexpr (kLevel == 0) {
+    return add<0>(counter, pair_within(scratch, pairs[0]), pair_within(scratch, pairs[1]));
+  } else {
+    const __m512i a = add_pairs<kLevel - 1>(counter, scratch, pairs);
+    BSM_KEEP_ORDER();
+    const __m512i b = add_pairs<kLevel - 1>(counter, scratch, pairs + (1 << kLevel));
+    return add<kLevel>(counter, a, b);
+  }
+}
+
+// Bit j of byte x: at least bits / 4 pairs of pixel x are within threshold j.
+BSM_NOINLINE __m512i enough(Scratch& scratch, int32_t bits) {
+  Counter counter;
+  BSM_UNROLL
+  for (int32_t i = 0; i < 6; ++i) counter.level[i] = _mm512_setzero_si512();
+  const int32_t groups = bits / 64;
+  int32_t levels = 1;
+  while (groups >> levels != 0) ++levels;
+  for (int32_t i = 0; i < levels; ++i) scratch.high[i] = _mm512_setzero_si512();
+  for (int32_t group = 0; group < groups; ++group) {
+    __m512i carry = add_pairs<5>(counter, scratch, scratch.points.pairs + 64 * group);
+    for (int32_t i = 0; i < levels; ++i) {
+      const __m512i old = scratch.high[i];
+      scratch.high[i] = _mm512_xor_si512(old, carry);
+      carry = _mm512_and_si512(old, carry);
+    }
+  }
+  // Compares with bits / 4 from the lowest bit up.
+  const uint32_t wanted = static_cast<uint32_t>(bits) / 4;
+  __m512i result = _mm512_set1_epi8(-1);
+  BSM_UNROLL
+  for (int32_t i = 0; i < 6; ++i) {
+    const __m512i level = counter.level[i];
+    result = (wanted >> i & 1u) != 0 ? _mm512_and_si512(result, level) : _mm512_or_si512(result, level);
+  }
+  for (int32_t i = 0; i < levels; ++i) {
+    const __m512i level = scratch.high[i];
+    result = (wanted >> (6 + i) & 1u) != 0 ? _mm512_and_si512(result, level) : _mm512_or_si512(result, level);
+  }
+  return result;
+}
+
+// Thresholds of a pass above a pixel's lower bound, as bytes within(d) for differences d = 0..63.
+struct Thresholds {
+  uint8_t within[64];
+};
+
+constexpr Thresholds make_thresholds(const int32_t (&limits)[8]) {
+  Thresholds table{};
+  for (int32_t d = 0; d < 64; ++d) {
+    for (int32_t j = 0; j < 8; ++j) {
+      if (d <= limits[j]) table.within[d] = static_cast<uint8_t>(table.within[d] | 1 << j);
+    }
+  }
+  return table;
+}
+
+// The first pass: finer where thresholds of photographs lie.
+constexpr int32_t kFirstLimits[8] = {4, 9, 14, 19, 24, 30, 39, 55};
+alignas(64) constexpr Thresholds kFirst = make_thresholds(kFirstLimits);
+alignas(64) constexpr Thresholds kBy1 = make_thresholds({0, 1, 2, 3, 4, 5, 6, 7});
+alignas(64) constexpr Thresholds kBy4 = make_thresholds({3, 7, 11, 15, 19, 23, 27, 31});
+alignas(64) constexpr Thresholds kBy7 = make_thresholds({6, 13, 20, 27, 34, 41, 48, 55});  // of quarters: by 28
+
+// How many thresholds of a byte are not enough.
+inline __m512i count_failed(__m512i result) {
+  const __m512i zeros = _mm512_broadcast_i32x4(_mm_setr_epi8(4, 3, 3, 2, 3, 2, 2, 1, 3, 2, 2, 1, 2, 1, 1, 0));
+  const __m512i nibble = _mm512_set1_epi8(15);
+  const __m512i low = _mm512_shuffle_epi8(zeros, _mm512_and_si512(result, nibble));
+  const __m512i high = _mm512_shuffle_epi8(zeros, _mm512_and_si512(_mm512_srli_epi16(result, 4), nibble));
+  return _mm512_add_epi8(low, high);
+}
+
+struct Bracket {
+  __m512i low, high;  // T is within, both included
+};
+
+inline Bracket first_bracket(Scratch& scratch, int32_t bits) {
+  const __m512i table = _mm512_load_si512(kFirst.within);
+  const __m512i last = _mm512_set1_epi8(63);
+  for (int32_t i = 0; i < scratch.points.count; ++i) {
+    const __m512i sad = _mm512_min_epu8(_mm512_load_si512(scratch.sad[i]), last);
+    _mm512_store_si512(scratch.within[i], _mm512_permutexvar_epi8(sad, table));
+  }
+  const __m512i failed = count_failed(enough(scratch, bits));
+  const __m512i low = _mm512_broadcast_i32x4(_mm_setr_epi8(0, 5, 10, 15, 20, 25, 31, 40, 56, 0, 0, 0, 0, 0, 0, 0));
+  const __m512i high = _mm512_broadcast_i32x4(_mm_setr_epi8(4, 9, 14, 19, 24, 30, 39, 55, -1, 0, 0, 0, 0, 0, 0, 0));
+  return Bracket{_mm512_shuffle_epi8(low, failed), _mm512_shuffle_epi8(high, failed)};
+}
+
+inline void narrow(Scratch& scratch, int32_t bits, int32_t step, Bracket& bracket) {
+  const __m512i table = _mm512_load_si512(step == 1 ? kBy1.within : step == 4 ? kBy4.within : kBy7.within);
+  const __m512i last = _mm512_set1_epi8(63);
+  for (int32_t i = 0; i < scratch.points.count; ++i) {
+    __m512i above = _mm512_subs_epu8(_mm512_load_si512(scratch.sad[i]), bracket.low);
+    if (step == 28) {
+      above = _mm512_and_si512(_mm512_srli_epi16(above, 2), last);
+    } else {
+      above = _mm512_min_epu8(above, last);
+    }
+    _mm512_store_si512(scratch.within[i], _mm512_permutexvar_epi8(above, table));
+  }
+  const __m512i failed = count_failed(enough(scratch, bits));
+  __m512i rise = failed;  // times step, at most 224
+  if (step == 4) rise = _mm512_slli_epi16(failed, 2);
+  if (step == 28) rise = _mm512_sub_epi8(_mm512_slli_epi16(failed, 5), _mm512_slli_epi16(failed, 2));
+  bracket.low = _mm512_adds_epu8(bracket.low, rise);
+  const __m512i top = _mm512_adds_epu8(bracket.low, _mm512_set1_epi8(static_cast<char>(step - 1)));
+  const __mmask64 open = _mm512_cmpeq_epi8_mask(failed, _mm512_set1_epi8(8));
+  bracket.high = _mm512_mask_min_epu8(bracket.high, ~open, bracket.high, top);
+}
+
+// T of 64 pixels; 255 stands for anything from 255 up. Only the pixels of `wanted` count.
+inline __m512i find_threshold(Scratch& scratch, int32_t bits, __mmask64 wanted) {
+  Bracket bracket = first_bracket(scratch, bits);
+  for (;;) {
+    const __m512i width = _mm512_maskz_sub_epi8(wanted, bracket.high, bracket.low);
+    if (_mm512_test_epi8_mask(width, width) == 0) return bracket.low;
+    const bool wide = _mm512_cmpgt_epu8_mask(width, _mm512_set1_epi8(35)) != 0;
+    const bool narrow_all = _mm512_cmpgt_epu8_mask(width, _mm512_set1_epi8(16)) == 0;
+    narrow(scratch, bits, narrow_all ? 1 : wide ? 28 : 4, bracket);
+  }
+}
+
+// Words of the points: bit x says that the SAD of pixel x is within its threshold.
+BSM_NOINLINE void threshold_points(const MaskThresholdArgs& args, int32_t x, __mmask64 wanted, Scratch& scratch) {
+  const __m512i threshold = find_threshold(scratch, args.pattern.bits, wanted);
+  for (int32_t i = 0; i < scratch.points.count; ++i) {
+    scratch.point_words[i] = _mm512_cmple_epu8_mask(_mm512_load_si512(scratch.sad[i]), threshold);
+  }
+  uint64_t beyond = _mm512_mask_cmpeq_epi8_mask(wanted, threshold, _mm512_set1_epi8(-1));
+  for (; beyond != 0; beyond &= beyond - 1) {
+    const int32_t pixel = __builtin_ctzll(beyond);
+    const uint32_t exact = exact_threshold(args, x + pixel, scratch.points, scratch.exact_sad, scratch.histogram);
+    for (int32_t i = 0; i < scratch.points.count; ++i) {
+      const uint64_t bit = uint64_t{1} << pixel;
+      scratch.point_words[i] = scratch.exact_sad[i] <= exact ? scratch.point_words[i] | bit : scratch.point_words[i] & ~bit;
+    }
+  }
+}
+
+}  // namespace
+
+uint64_t mask_threshold_avx512_scratch(const KernelShape&) {
+  return sizeof(Scratch);
+}
+
+void mask_threshold_avx512(const MaskThresholdArgs& args) {
+  Scratch& scratch = *static_cast<Scratch*>(args.scratch);
+  const int32_t bits = args.pattern.bits;
+  const ptrdiff_t bytes = bits / 8;
+  number_points(args.pattern, scratch.points);
+  for (int32_t x = 0; x < args.width; x += 64) {
+    const int32_t pixels = args.width - x < 64 ? args.width - x : 64;
+    const __mmask64 wanted = ~uint64_t{0} >> (64 - pixels);
+    if (args.planes == 3) {
+      window_sad<3>(args, x, scratch);
+    } else {
+      window_sad<1>(args, x, scratch);
+    }
+    threshold_points(args, x, wanted, scratch);
+    for (int32_t first = 0; first < bits; first += kTileWords) {
+      const int32_t count = bits - first < kTileWords ? bits - first : kTileWords;
+      const uint8_t* words = reinterpret_cast<const uint8_t*>(scratch.point_words);
+      for (int32_t i = 0; i < count; ++i) {
+        const uint32_t pair = scratch.points.pairs[first + i];
+        uint64_t p, q;
+        BSM_MEMCPY(&p, words + (pair & 0xffff), sizeof p);
+        BSM_MEMCPY(&q, words + (pair >> 16), sizeof q);
+        scratch.words[i] = p & q;
+      }
+      store_descriptors(scratch.words, count / 64, pixels, args.out + x * bytes + first / 8, bytes, scratch.tile);
+    }
+  }
+}
+
+}  // namespace bsm
+#endif

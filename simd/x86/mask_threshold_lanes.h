@@ -1,0 +1,248 @@
+// mask_threshold for AVX2 and SSE4.2: kLanes neighbouring pixels at once, the way of mask_threshold_avx512.cpp.
+// A pass tries eight thresholds: bit j of a byte says that the SAD is within threshold j, a pair is one AND, and carry-save
+// adders count: 6 operations and 2 loads for 8 kLanes (pixel, threshold, pair) triples.
+// Include after the lanes of one instruction set.
+#ifndef BSM_SIMD_X86_MASK_THRESHOLD_LANES_H
+#define BSM_SIMD_X86_MASK_THRESHOLD_LANES_H
+
+#include "simd/kernels.h"
+#include "simd/pattern_points.h"
+#include "simd/x86/transpose_lanes.h"
+
+namespace bsm {
+namespace {
+
+constexpr int32_t kHighLevels = 7;  // bits of a count from 64 on
+constexpr int32_t kWordsAtOnce = 512;
+
+struct alignas(64) MaskScratch {
+  uint8_t sad[kMaxPoints][kLanes];
+  uint8_t within[kMaxPoints][kLanes];  // bit j: the SAD is within threshold j
+  uint8_t high[kHighLevels][kLanes];
+  Word words[kWordsAtOnce];
+  uint64_t point_words[kMaxPoints];  // 8 bytes apart, as the numbers of points are
+  uint16_t exact_sad[kMaxPoints];
+  uint16_t histogram[kMaxSad + 1];
+  PatternPoints points;
+};
+
+inline Bytes distance(Bytes a, Bytes b) {
+  return sub8(max8(a, b), min8(a, b));
+}
+
+template <int32_t kPlanes>
+inline void window_sad(const MaskThresholdArgs& args, int32_t x, MaskScratch& scratch) {
+  const uint8_t* const* rows = args.rows + args.pattern.radius;
+  Bytes center[kPlanes];
+  for (int32_t i = 0; i < kPlanes; ++i) center[i] = load(rows[0] + x + i * args.plane_stride);
+  for (int32_t i = 0; i < scratch.points.count; ++i) {
+    const uint8_t* at = rows[scratch.points.points[i].dy] + x + scratch.points.points[i].dx;
+    Bytes sad = distance(center[0], load(at));
+    for (int32_t plane = 1; plane < kPlanes; ++plane) {
+      sad = add8_saturated(sad, distance(center[plane], load(at + plane * args.plane_stride)));
+    }
+    store(scratch.sad[i], sad);
+  }
+}
+
+struct Counter {
+  Bytes level[6];  // bits 0..5 of 8 kLanes counts
+};
+
+// Adds the bits a and b to a level; returns the carry.
+template <int32_t kLevel>
+BSM_INLINE Bytes add_bits(Counter& counter, Bytes a, Bytes b) {
+  const Bytes old = counter.level[kLevel];
+  const Bytes odd = differ(a, b);
+  counter.level[kLevel] = differ(old, odd);
+  return either(both(a, b), both(old, odd));
+}
+
+BSM_INLINE Bytes pair_within(const MaskScratch& scratch, uint32_t pair) {
+  const uint8_t* within = scratch.within[0];
+  constexpr int32_t kScale = kLanes / 8;
+  return both(load(within + kScale * ptrdiff_t{pair & 0xffff}), load(within + kScale * ptrdiff_t{pair >> 16}));
+}
+
+template <int32_t kLevel>
+BSM_INLINE Bytes add_pairs(Counter& counter, const MaskScratch& scratch, const uint32_t* pairs) {
+  if constexpr (kLevel == 0) {
+    return add_bits<0>(counter, pair_within(scratch, pairs[0]), pair_within(scratch, pairs[1]));
+  } else {
+    const Bytes a = add_pairs<kLevel - 1>(counter, scratch, pairs);
+    BSM_KEEP_ORDER();
+    const Bytes b = add_pairs<kLevel - 1>(counter, scratch, pairs + (1 << kLevel));
+    return add_bits<kLevel>(counter, a, b);
+  }
+}
+
+// Bit j of byte x: at least bits / 4 pairs of pixel x are within threshold j.
+BSM_NOINLINE Bytes enough(MaskScratch& scratch, int32_t bits) {
+  Counter counter;
+  BSM_UNROLL
+  for (int32_t i = 0; i < 6; ++i) counter.level[i] = zero();
+  const int32_t groups = bits / 64;
+  int32_t levels = 1;
+  while (groups >> levels != 0) ++levels;
+  for (int32_t i = 0; i < levels; ++i) store(scratch.high[i], zero());
+  for (int32_t group = 0; group < groups; ++group) {
+    Bytes carry = add_pairs<5>(counter, scratch, scratch.points.pairs + 64 * group);
+    for (int32_t i = 0; i < levels; ++i) {
+      const Bytes old = load(scratch.high[i]);
+      store(scratch.high[i], differ(old, carry));
+      carry = both(old, carry);
+    }
+  }
+  // Compares with bits / 4 from the lowest bit up; 16 divides it.
+  const uint32_t wanted = static_cast<uint32_t>(bits) / 4;
+  Bytes result = set8(-1);
+  BSM_UNROLL
+  for (int32_t i = 0; i < 6; ++i) {
+    result = (wanted >> i & 1u) != 0 ? both(result, counter.level[i]) : either(result, counter.level[i]);
+  }
+  for (int32_t i = 0; i < levels; ++i) {
+    const Bytes level = load(scratch.high[i]);
+    result = (wanted >> (6 + i) & 1u) != 0 ? both(result, level) : either(result, level);
+  }
+  return result;
+}
+
+// How many of a byte's thresholds are not enough.
+inline Bytes count_failed(Bytes result) {
+  alignas(16) static constexpr uint8_t kZeros[16] = {4, 3, 3, 2, 3, 2, 2, 1, 3, 2, 2, 1, 2, 1, 1, 0};
+  const Bytes zeros = table16(kZeros);
+  const Bytes low = look_up(zeros, both(result, set8(15)));
+  return add8(low, look_up(zeros, both(right16<4>(result), set8(15))));
+}
+
+// Bytes within(d) of a pass, for differences d = 0..15 in units of the pass.
+struct Thresholds {
+  uint8_t within[16];
+};
+
+constexpr Thresholds make_thresholds(const int32_t (&limits)[8]) {
+  Thresholds table{};
+  for (int32_t d = 0; d < 16; ++d) {
+    for (int32_t j = 0; j < 8; ++j) {
+      if (d <= limits[j]) table.within[d] = static_cast<uint8_t>(table.within[d] | 1 << j);
+    }
+  }
+  return table;
+}
+
+constexpr Thresholds kFirst = make_thresholds({0, 1, 2, 3, 4, 6, 8, 12});  // units of 4, from 0
+constexpr Thresholds kEvery = make_thresholds({0, 1, 2, 3, 4, 5, 6, 7});
+constexpr Thresholds kEverySecond = make_thresholds({1, 3, 5, 7, 9, 11, 13, 15});
+constexpr uint8_t kFirstLow[16] = {0, 4, 8, 12, 16, 20, 28, 36, 52};
+constexpr uint8_t kFirstHigh[16] = {3, 7, 11, 15, 19, 27, 35, 51, 255};
+
+struct Bracket {
+  Bytes low, high;  // T is within, both included
+};
+
+inline Bracket first_bracket(MaskScratch& scratch, int32_t bits) {
+  const Bytes table = table16(kFirst.within);
+  for (int32_t i = 0; i < scratch.points.count; ++i) {
+    const Bytes sad = min8(load(scratch.sad[i]), set8(63));
+    store(scratch.within[i], look_up(table, both(right16<2>(sad), set8(15))));
+  }
+  const Bytes failed = count_failed(enough(scratch, bits));
+  return Bracket{look_up(table16(kFirstLow), failed), look_up(table16(kFirstHigh), failed)};
+}
+
+// One more pass with thresholds 1, 4 or 32 apart.
+template <int32_t kStep>
+inline void narrow(MaskScratch& scratch, int32_t bits, Bracket& bracket) {
+  const Bytes table = table16(kStep == 32 ? kEverySecond.within : kEvery.within);
+  for (int32_t i = 0; i < scratch.points.count; ++i) {
+    Bytes above = sub8_saturated(load(scratch.sad[i]), bracket.low);
+    if (kStep == 1) above = min8(above, set8(15));
+    if (kStep == 4) above = both(right16<2>(min8(above, set8(63))), set8(15));
+    if (kStep == 32) above = both(right16<4>(above), set8(15));
+    store(scratch.within[i], look_up(table, above));
+  }
+  const Bytes failed = count_failed(enough(scratch, bits));
+  Bytes rise = failed;
+  if (kStep == 4) rise = left16<2>(failed);
+  if (kStep == 32) rise = left16<5>(min8(failed, set8(7)));  // the last threshold is above every SAD
+  bracket.low = add8_saturated(bracket.low, rise);
+  const Bytes top = min8(bracket.high, add8_saturated(bracket.low, set8(kStep - 1)));
+  bracket.high = choose(top, bracket.high, equal8(failed, set8(8)));
+}
+
+// T of kLanes pixels; 255 stands for anything from 255 up. Only the pixels whose bytes in `wanted` are set count.
+inline Bytes find_threshold(MaskScratch& scratch, int32_t bits, Bytes wanted) {
+  Bracket bracket = first_bracket(scratch, bits);
+  for (;;) {
+    const Bytes width = both(sub8(bracket.high, bracket.low), wanted);
+    const auto all_within = [width](int32_t most) {
+      return signs(equal8(sub8_saturated(width, set8(most)), zero())) == static_cast<Word>(-1);
+    };
+    if (all_within(0)) return bracket.low;
+    if (all_within(16)) {
+      narrow<1>(scratch, bits, bracket);
+    } else if (all_within(35)) {
+      narrow<4>(scratch, bits, bracket);
+    } else {
+      narrow<32>(scratch, bits, bracket);
+    }
+  }
+}
+
+// Words of the points: bit x says that the SAD of pixel x is within its threshold.
+inline void threshold_points(const MaskThresholdArgs& args, int32_t x, int32_t pixels, MaskScratch& scratch) {
+  alignas(32) uint8_t lanes[kLanes];
+  for (int32_t i = 0; i < kLanes; ++i) lanes[i] = i < pixels ? 0xff : 0;
+  const Bytes wanted = load(lanes);
+  const Bytes threshold = find_threshold(scratch, args.pattern.bits, wanted);
+  for (int32_t i = 0; i < scratch.points.count; ++i) {
+    const Bytes sad = load(scratch.sad[i]);
+    scratch.point_words[i] = signs(equal8(min8(sad, threshold), sad));
+  }
+  const Word beyond = signs(both(equal8(threshold, set8(-1)), wanted));
+  for (int32_t pixel = 0; pixel < pixels; ++pixel) {
+    if ((beyond >> pixel & 1) == 0) continue;
+    const uint32_t exact = exact_threshold(args, x + pixel, scratch.points, scratch.exact_sad, scratch.histogram);
+    const uint64_t bit = uint64_t{1} << pixel;
+    for (int32_t i = 0; i < scratch.points.count; ++i) {
+      const uint64_t word = scratch.point_words[i];
+      scratch.point_words[i] = scratch.exact_sad[i] <= exact ? word | bit : word & ~bit;
+    }
+  }
+}
+
+inline void threshold_masks(const MaskThresholdArgs& args) {
+  static constexpr int32_t kInOrder[4] = {0, 1, 2, 3};
+  int32_t byte_of[kLanes / 8];
+  for (int32_t i = 0; i < kLanes / 8; ++i) byte_of[i] = kInOrder[i];
+  MaskScratch& scratch = *static_cast<MaskScratch*>(args.scratch);
+  const int32_t bits = args.pattern.bits;
+  const ptrdiff_t bytes = bits / 8;
+  number_points(args.pattern, scratch.points);
+  for (int32_t x = 0; x < args.width; x += kLanes) {
+    const int32_t pixels = args.width - x < kLanes ? args.width - x : kLanes;
+    if (args.planes == 3) {
+      window_sad<3>(args, x, scratch);
+    } else {
+      window_sad<1>(args, x, scratch);
+    }
+    threshold_points(args, x, pixels, scratch);
+    for (int32_t first = 0; first < bits; first += kWordsAtOnce) {
+      const int32_t count = bits - first < kWordsAtOnce ? bits - first : kWordsAtOnce;
+      const uint8_t* words = reinterpret_cast<const uint8_t*>(scratch.point_words);
+      for (int32_t i = 0; i < count; ++i) {
+        const uint32_t pair = scratch.points.pairs[first + i];
+        Word p, q;
+        BSM_MEMCPY(&p, words + (pair & 0xffff), sizeof p);
+        BSM_MEMCPY(&q, words + (pair >> 16), sizeof q);
+        scratch.words[i] = static_cast<Word>(p & q);
+      }
+      store_descriptors<false>(scratch.words, count, byte_of, pixels, args.out + x * bytes + first / 8, bytes);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bsm
+
+#endif  // BSM_SIMD_X86_MASK_THRESHOLD_LANES_H

@@ -1,0 +1,204 @@
+#!/usr/bin/env bash
+# proofs.sh - properties of the library that its text and its object code show: which symbols it needs, that it holds no
+# writable data and no constructors, that it uses no floating point, and what it includes.
+#
+# usage: bash tests/proofs.sh symbols|sections|float|includes|general-regs-x86_64|general-regs-aarch64 [LIBRARY]
+# Exit code: 0 proved, 1 refuted, 77 cannot be told here (the output says why).
+set -u
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+proof=${1:-}
+library=${2:-}
+
+skip() {
+  echo "SKIPPED: $1"
+  exit 77
+}
+
+fail() {
+  echo "FAILED: $1"
+  exit 1
+}
+
+need_library() {
+  [ -f "$library" ] || fail "'$library' is no file; give the path of libbsm.a"
+  case $library in
+    *.a) ;;
+    *) skip "the proof reads a static library" ;;
+  esac
+  command -v "$1" > /dev/null || skip "'$1' is not installed"
+  if nm "$library" 2> /dev/null | grep -q '__asan_\|__ubsan_\|__gcov_\|__llvm_prof'; then
+    skip "instrumented build (sanitizer or coverage)"
+  fi
+}
+
+# The library's own source files, headers with the argument "all".
+sources() {
+  if [ "${1:-}" = all ]; then
+    find "$root/core" "$root/simd" -type f \( -name '*.cpp' -o -name '*.h' -o -name '*.hpp' -o -name '*.def' \) | sort
+  else
+    find "$root/core" "$root/simd" "$root/platform" -maxdepth 1 -type f -name '*.cpp' | sort
+    find "$root/simd/scalar" -type f -name '*.cpp' | sort
+  fi
+}
+
+# Prints a file without comments, one line for each of its lines. Text in quotes stays, so that an include keeps its path.
+without_comments() {
+  awk '
+    {
+      line = $0; out = ""; i = 1; n = length(line); quote = ""
+      while (i <= n) {
+        c = substr(line, i, 1); two = substr(line, i, 2)
+        if (in_comment) {
+          if (two == "*/") { in_comment = 0; i += 2; out = out " " } else i++
+        } else if (quote != "") {
+          out = out c
+          if (c == "\\") { out = out substr(line, i + 1, 1); i++ } else if (c == quote) quote = ""
+          i++
+        } else if (two == "//") {
+          break
+        } else if (two == "/*") {
+          in_comment = 1; i += 2
+        } else {
+          # An apostrophe between digits separates digits.
+          if (c == "\"" || (c == "\047" && !(substr(line, i - 1, 1) ~ /[0-9a-fA-F]/))) quote = c
+          out = out c; i++
+        }
+      }
+      print out
+    }' "$1"
+}
+
+# Undefined symbols of the whole archive that it does not define itself.
+prove_symbols() {
+  need_library nm
+  local allowed='^(memcpy|memset|memmove|memcmp'
+  allowed+='|__(u?(div|mod)|u?divmod|mul|ashl|ashr|lshr|neg|u?cmp|popcount|clz|ctz|bswap|parity|ffs)[sdt]i[234]?' # integer helpers
+  allowed+='|__aeabi_(u?idiv(mod)?|u?ldivmod|lmul|llsl|llsr|lasr|u?lcmp|mem(cpy|move|set|clr)[48]?)'
+  allowed+='|__mem(cpy|move|set)_chk|__stack_chk_(fail|guard)|_GLOBAL_OFFSET_TABLE_)$' # what distributions add
+  local defined undefined foreign
+  defined=$(nm -g --defined-only "$library" 2> /dev/null | awk 'NF >= 3 { print $3 }' | sort -u)
+  undefined=$(nm -u "$library" 2> /dev/null | awk '$1 == "U" || $1 == "w" || $1 == "v" { print $2 }' | sort -u)
+  [ -n "$defined" ] || fail "nm finds no symbols in $library"
+  foreign=$(comm -23 <(echo "$undefined") <(echo "$defined") | grep -Ev "$allowed" | grep .)
+  [ -z "$foreign" ] || fail "the library needs: $(echo $foreign)"
+  echo "needs nothing beyond: $(comm -23 <(echo "$undefined") <(echo "$defined") | grep . | tr '\n' ' ')"
+  # Beside the C interface nothing but names of the namespace.
+  foreign=$(echo "$defined" | grep -Ev '^(bsm_|_ZNK?3bsm|_ZT[VIS]N?3bsm)')
+  [ -z "$foreign" ] || fail "names outside bsm_ and bsm::: $(echo $foreign)"
+}
+
+# No writable data, no code that runs before main, no exception tables of its own.
+prove_sections() {
+  need_library objdump
+  local bad
+  bad=$(objdump -h "$library" | awk '
+    /file format/ { object = $1 }
+    $1 ~ /^[0-9]+$/ {
+      name = $2; size = $3
+      if (size ~ /^0+$/) next
+      if (name ~ /^\.(data|bss|tdata|tbss|sdata|sbss)($|\.)/ && name !~ /^\.data\.rel\.ro/) print object, name, "0x" size
+      if (name ~ /^\.(init_array|ctors|preinit_array|fini_array|dtors|init|fini)($|\.)/) print object, name, "0x" size
+      if (name ~ /^\.gcc_except_table/) print object, name, "0x" size
+    }')
+  [ -z "$bad" ] || fail "sections that may not be there: $bad"
+  bad=$(nm "$library" 2> /dev/null | awk '$2 ~ /^[CBbDd]$/ { print $2, $3 }' | grep -v '_GLOBAL_OFFSET_TABLE_' |
+    while read -r kind name; do
+      # Constant tables of pointers lie in .data.rel.ro, which nm also calls data.
+      objdump -t "$library" | grep -F " $name" | grep -q '\.data\.rel\.ro' || echo "$kind $name"
+    done)
+  [ -z "$bad" ] || fail "writable symbols: $bad"
+  echo "no writable data, no constructors, no exception tables"
+}
+
+prove_float() {
+  local file found
+  # Names of types, and literals such as 1.5, .5, 1e3, 2.0f; hexadecimal integers such as 0x1e5 are none.
+  found=$(while read -r file; do
+    without_comments "$file" | sed 's/"[^"]*"//g' |
+      grep -nE '(^|[^A-Za-z0-9_])(float|double|_Float16|__fp16|float(16|32|64)_t)([^A-Za-z0-9_]|$)|(^|[^A-Za-z0-9_.])([0-9]+\.[0-9]*|\.[0-9]+|[0-9]+[eE][-+]?[0-9]+)' |
+      sed "s|^|${file#"$root"/}:|"
+  done < <(sources all))
+  [ -z "$found" ] || fail "floating point in the text of the library:
+$found"
+  echo "no floating point in $(sources all | wc -l) files of core/ and simd/"
+}
+
+# core/ may include the two C headers, its own headers, the contract in simd/ and the facts in platform/; simd/ the same without
+# core/, and intrinsics in the folders of one instruction set.
+prove_includes() {
+  local found=0 file line name where
+  while read -r file; do
+    where=${file#"$root"/}
+    while read -r line; do
+      name=$(echo "$line" | sed -E 's/^[[:space:]]*#[[:space:]]*include[[:space:]]*//; s/[[:space:]]*$//')
+      case $where:$name in
+        *:"<stdint.h>" | *:"<stddef.h>") continue ;;
+        simd/*/*:"<immintrin.h>" | simd/*/*:"<nmmintrin.h>" | simd/*/*:"<arm_neon.h>" | simd/*/*:"<arm_sve.h>") continue ;;
+        simd/*/*:"<arm_acle.h>" | simd/*/*:"<arm_mve.h>") continue ;;
+        core/include/*:'"bsm/'*) [ -f "$root/core/include/$(echo "$name" | tr -d '"')" ] && continue ;;
+        *:'"bsm/bsm.h"') continue ;;
+        core/*:'"core/'*.h\" | core/*:'"simd/'*.h\" | simd/*:'"simd/'*.h\" | simd/*:'"simd/'*.def\")
+          if [ -f "$root/$(echo "$name" | tr -d '"')" ]; then
+            case $where:$name in
+              core/*:'"simd/'*/*) ;; # never a file of one instruction set
+              *) continue ;;
+            esac
+          fi
+          ;;
+        *:'"platform/compiler.h"' | *:'"platform/cpu.h"') continue ;;
+      esac
+      echo "$where: #include $name"
+      found=1
+    done < <(without_comments "$file" | grep -E '^[[:space:]]*#[[:space:]]*include')
+  done < <(sources all)
+  [ "$found" = 0 ] || fail "includes that the layering does not allow"
+  echo "core/ and simd/ include only <stdint.h>, <stddef.h>, intrinsics and their own headers"
+}
+
+# Compiles the scalar library with a compiler that refuses to emit floating point code.
+prove_general_regs() {
+  local compiler=$1 file
+  dir=$(mktemp -d) || fail "no temporary folder"
+  trap 'rm -rf "$dir"' EXIT
+  # The compiler has to refuse what it is asked to prove absent.
+  echo 'int scale(int x) { return (int)(x * 1.5); }' > "$dir/control.cpp"
+  if "$compiler" -mgeneral-regs-only -O2 -c "$dir/control.cpp" -o "$dir/control.o" > /dev/null 2>&1; then
+    skip "$compiler accepts floating point under -mgeneral-regs-only, which proves nothing"
+  fi
+  while read -r file; do
+    "$compiler" -std=c++17 -O2 -mgeneral-regs-only -ffreestanding -fno-exceptions -fno-rtti -fno-threadsafe-statics \
+      -I"$root" -I"$root/core/include" -c "$file" -o "$dir/object.o" || fail "${file#"$root"/} does not compile with -mgeneral-regs-only"
+  done < <(sources)
+  echo "$(sources | wc -l) files compile with $compiler -mgeneral-regs-only"
+}
+
+general_regs_x86_64() {
+  command -v g++ > /dev/null || skip "g++ is not installed"
+  case $(g++ -dumpmachine) in
+    x86_64*) prove_general_regs g++ ;;
+    *) skip "g++ does not make x86-64 code" ;;
+  esac
+}
+
+general_regs_aarch64() {
+  if command -v aarch64-linux-gnu-g++ > /dev/null; then
+    prove_general_regs aarch64-linux-gnu-g++
+  elif command -v g++ > /dev/null && [[ $(g++ -dumpmachine) == aarch64* ]]; then
+    prove_general_regs g++
+  else
+    skip "aarch64-linux-gnu-g++ is not installed (Debian/Ubuntu: apt-get install g++-aarch64-linux-gnu)"
+  fi
+}
+
+case $proof in
+  symbols) prove_symbols ;;
+  sections) prove_sections ;;
+  float) prove_float ;;
+  includes) prove_includes ;;
+  general-regs-x86_64) general_regs_x86_64 ;;
+  general-regs-aarch64) general_regs_aarch64 ;;
+  *)
+    sed -n '2,7s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
+    exit 2
+    ;;
+esac

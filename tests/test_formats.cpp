@@ -1,0 +1,75 @@
+// test_formats.cpp - the same colours give the same map in every pixel format, and luma and CIELAB rows are what the
+// formats' definitions say.
+#include "bsm/bsm.h"
+#include "check.h"
+#include "images.h"
+#include "matching.h"
+
+using namespace bsm::test;
+
+namespace {
+
+bsm_config small_config(Rng& rng, bsm_format format, int stage) {
+  bsm_config config = config_for(rng.range(1, 40), rng.range(1, 24), format);
+  config.bits = 128;
+  config.num_disparities = rng.range(1, 12);
+  config.stage = stage;
+  config.right_map = 1;
+  return config;
+}
+
+}  // namespace
+
+TEST_CASE(color_formats_agree) {
+  Rng rng(seed());
+  for (int i = repeats(24); i-- > 0;) {
+    bsm_config config = small_config(rng, BSM_FORMAT_RGB24, kStages[i % 4]);
+    // Colours that rgb565 holds exactly, so that all five describe the same image.
+    const ColorPair colors = to_rgb565_colors(make_pair(rng, kAllContents[i % 6], config.width, config.height));
+    const Maps expected = match_frame(config, encode(colors, BSM_FORMAT_RGB24));
+    for (const bsm_format format : {BSM_FORMAT_BGR24, BSM_FORMAT_RGBA32, BSM_FORMAT_BGRA32, BSM_FORMAT_RGB565}) {
+      config.format = format;
+      const Scope scope(describe(config));
+      check_same(match_frame(config, encode(colors, format)), expected);
+      check_same(match_rows(config, encode(colors, format)), expected);
+    }
+  }
+}
+
+TEST_CASE(channels_are_told_apart) {
+  // Red and blue swapped is another image: if a format mixed them up consistently, the case above would not see it.
+  Rng rng(seed() + 1);
+  bsm_config config = config_for(48, 24);
+  config.bits = 256;
+  config.num_disparities = 12;
+  config.stage = BSM_STAGE_MASKED;
+  const EncodedPair pair = encode(make_pair(rng, Content::kNoise, 48, 24), BSM_FORMAT_RGB24);
+  const Maps rgb = match_frame(config, pair);
+  config.format = BSM_FORMAT_BGR24;
+  CHECK(match_frame(config, pair).left != rgb.left);
+}
+
+TEST_CASE(gray_equals_equal_channels) {
+  Rng rng(seed() + 2);
+  for (int i = repeats(24); i-- > 0;) {
+    bsm_config config = small_config(rng, BSM_FORMAT_GRAY8, kStages[i % 4]);
+    const ColorPair colors = to_gray(make_pair(rng, kAllContents[i % 6], config.width, config.height));
+    const Maps gray = match_frame(config, encode(colors, BSM_FORMAT_GRAY8));
+    config.format = BSM_FORMAT_RGB24;
+    const Scope scope(describe(config));
+    check_same(gray, match_frame(config, encode(colors, BSM_FORMAT_RGB24)));
+  }
+}
+
+TEST_CASE(alpha_does_not_matter) {
+  Rng rng(seed() + 3);
+  for (const bsm_format format : {BSM_FORMAT_RGBA32, BSM_FORMAT_BGRA32}) {
+    const bsm_config config = small_config(rng, format, BSM_STAGE_REFINED);
+    EncodedPair pair = encode(make_pair(rng, Content::kShifted, config.width, config.height), format);
+    const Maps expected = match_frame(config, pair);
+    for (PixelImage* image : {&pair.left, &pair.right}) {
+      for (size_t i = 3; i < image->bytes.size(); i += 4) image->bytes[i] = rng.byte();
+    }
+    check_same(match_frame(config, pair), expected);
+  }
+}

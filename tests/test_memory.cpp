@@ -1,0 +1,341 @@
+// test_memory.cpp - the arena and the caller's images: sizes held to their targets, any alignment, nothing touched outside
+// the arena, no byte of an image read that is not a pixel's, padding and strides of both signs.
+#include <algorithm>
+#include <cstdio>
+
+#include "bsm/bsm.h"
+#include "check.h"
+#include "guarded.h"
+#include "images.h"
+#include "matching.h"
+
+using namespace bsm::test;
+
+namespace {
+
+// What the size targets are stated for: the scalar kernels, one job, no right map.
+bsm_config target_config(int width, int height, int disparities, int bits, bsm_format format) {
+  bsm_config config = config_for(width, height, format);
+  config.num_disparities = disparities;
+  config.bits = bits;
+  config.isa_mask = 0;
+  return config;
+}
+
+size_t scalar_bytes(const bsm_config& config) {
+  size_t bytes = 0;
+  REQUIRE_EQ(bsm_memory_required_for(&config, 0, &bytes), BSM_OK);
+  return bytes;
+}
+
+bsm_config random_config(Rng& rng, int width, int height, bool whole_frame = false) {
+  bsm_config config = config_for(width, height, kAllFormats[rng.range(0, 5)]);
+  randomize(rng, config, whole_frame);
+  config.speckle = rng.one_in(2) ? 0 : rng.range(1, 100);
+  config.max_jobs = rng.range(1, 3);
+  return config;
+}
+
+// A map with its own stride, between values that must not change.
+struct GuardedMap {
+  GuardedMap(int w, int h, ptrdiff_t stride_values, bool upward) : width(w), height(h), stride(stride_values) {
+    values.assign(static_cast<size_t>(stride * h) + 2 * kEdge, kUnwritten);
+    top = values.data() + kEdge + (upward ? stride * (h - 1) : 0);
+    if (upward) stride = -stride;
+  }
+  bsm_map map() { return {top, stride * 2}; }
+  std::vector<int16_t> pixels() const {
+    std::vector<int16_t> result;
+    for (int y = 0; y < height; ++y) result.insert(result.end(), top + y * stride, top + y * stride + width);
+    return result;
+  }
+  // Every value outside the pixels is as it was.
+  bool gaps_intact() const {
+    std::vector<int16_t> copy = values;
+    const ptrdiff_t origin = top - values.data();
+    for (int y = 0; y < height; ++y) std::fill_n(copy.begin() + origin + y * stride, width, kUnwritten);
+    return std::all_of(copy.begin(), copy.end(), [](int16_t v) { return v == kUnwritten; });
+  }
+
+  static constexpr int kEdge = 64;
+  int width, height;
+  ptrdiff_t stride;
+  std::vector<int16_t> values;
+  int16_t* top;
+};
+
+}  // namespace
+
+TEST_CASE(size_targets) {
+  const bsm_config teddy = target_config(450, 375, 60, 4096, BSM_FORMAT_RGB24);
+  const bsm_config small = target_config(160, 120, 32, 256, BSM_FORMAT_RGB24);
+  const bsm_config small_gray = target_config(160, 120, 32, 256, BSM_FORMAT_GRAY8);
+  std::printf("  450x375 rgb24, 60 disparities, 4096 bits: %zu bytes\n", scalar_bytes(teddy));
+  std::printf("  160x120 rgb24, 32 disparities,  256 bits: %zu bytes\n", scalar_bytes(small));
+  std::printf("  160x120 gray8, 32 disparities,  256 bits: %zu bytes\n", scalar_bytes(small_gray));
+  std::printf("  (scalar kernels, one job, no right map, refined stage)\n");
+  CHECK_LE(scalar_bytes(teddy), size_t{2} * 1024 * 1024);
+  CHECK_LE(scalar_bytes(small), size_t{128} * 1024);
+  CHECK(scalar_bytes(small_gray) < scalar_bytes(small));
+}
+
+TEST_CASE(size_does_not_grow_with_height) {
+  for (const bsm_preset preset : {BSM_PRESET_PAPER, BSM_PRESET_FAST, BSM_PRESET_BALANCED}) {
+    for (const bsm_format format : {BSM_FORMAT_RGB24, BSM_FORMAT_GRAY8}) {
+      for (const bsm_stage stage : kStages) {
+        bsm_config low = target_config(320, 100, 48, 512, format);
+        REQUIRE_EQ(bsm_config_preset(&low, preset), BSM_OK);
+        low.stage = stage;
+        bsm_config high = low;
+        high.height = 10000;
+        const Scope scope(describe(low));
+        CHECK_EQ(scalar_bytes(low), scalar_bytes(high));
+        CHECK_EQ(arena_bytes(low), arena_bytes(high));
+      }
+    }
+  }
+  bsm_config low = target_config(320, 100, 48, 512, BSM_FORMAT_RGB24);  // only eight paths keep the frame
+  REQUIRE_EQ(bsm_config_preset(&low, BSM_PRESET_BEST), BSM_OK);
+  bsm_config high = low;
+  high.height = 200;
+  CHECK(scalar_bytes(high) > scalar_bytes(low));
+}
+
+TEST_CASE(size_grows_with_what_needs_memory) {
+  const bsm_config base = target_config(200, 100, 32, 256, BSM_FORMAT_RGB24);
+  const auto grows = [&base](void (*change)(bsm_config&)) {
+    bsm_config config = base;
+    change(config);
+    const Scope scope(describe(config));
+    CHECK(scalar_bytes(config) > scalar_bytes(base));
+  };
+  grows([](bsm_config& c) { c.width = 400; });
+  grows([](bsm_config& c) { c.bits = 512; });
+  grows([](bsm_config& c) { c.right_map = 1; });
+  grows([](bsm_config& c) { c.max_jobs = 2; });
+}
+
+TEST_CASE(scalar_size_is_the_size_without_features) {
+  Rng rng(seed());
+  for (int i = 0; i < 20; ++i) {
+    bsm_config config = random_config(rng, rng.range(1, 2000), rng.range(1, 2000));
+    config.isa_mask = 0;
+    const Scope scope(describe(config));
+    CHECK_EQ(scalar_bytes(config), arena_bytes(config));
+    size_t bytes = 0;
+    CHECK_EQ(bsm_memory_required_for(&config, bsm_cpu_features(), &bytes), BSM_OK);
+    CHECK_EQ(bytes, arena_bytes(config));
+  }
+}
+
+TEST_CASE(any_alignment_works) {
+  Rng rng(seed() + 1);
+  for (int i = repeats(12); i-- > 0;) {
+    const bsm_config config = random_config(rng, rng.range(1, 40), rng.range(1, 40));
+    const Scope scope(describe(config));
+    const EncodedPair pair =
+        encode(make_pair(rng, Content::kShifted, config.width, config.height), static_cast<bsm_format>(config.format));
+    const Maps expected = match_frame(config, pair);
+    for (size_t misalignment = 0; misalignment < 64; misalignment += misalignment == 0 || rng.one_in(2) ? 1 : 7) {
+      const Scope offset("arena " + text_of(misalignment) + " bytes past a multiple of 64");
+      Arena arena(arena_bytes(config), misalignment);
+      bsm_context* context = nullptr;
+      REQUIRE_EQ(bsm_open(&config, arena.data(), arena.size(), &context), BSM_OK);
+      CHECK(reinterpret_cast<uintptr_t>(context) >= reinterpret_cast<uintptr_t>(arena.data()));
+      check_same(stream_rows(context, config, pair), expected);
+    }
+  }
+}
+
+TEST_CASE(one_byte_less_is_refused) {
+  Rng rng(seed() + 2);
+  for (int i = 0; i < 40; ++i) {
+    const bsm_config config = random_config(rng, rng.range(1, 200), rng.range(1, 200));
+    const Scope scope(describe(config));
+    Arena arena(arena_bytes(config), static_cast<size_t>(rng.range(0, 63)));
+    bsm_context* context = nullptr;
+    CHECK_EQ(bsm_open(&config, arena.data(), arena.size() - 1, &context), BSM_ERROR_ARENA);
+    CHECK(context == nullptr);
+    CHECK_EQ(bsm_open(&config, arena.data(), arena.size(), &context), BSM_OK);
+    CHECK_EQ(bsm_open(&config, arena.data(), arena.size() + 1, &context), BSM_OK);
+  }
+}
+
+TEST_CASE(old_arena_contents_do_not_matter) {
+  Rng rng(seed() + 3);
+  for (int i = repeats(20); i-- > 0;) {
+    const bsm_config config = random_config(rng, rng.range(1, 40), rng.range(1, 40));
+    const Scope scope(describe(config));
+    const EncodedPair pair =
+        encode(make_pair(rng, Content::kShifted, config.width, config.height), static_cast<bsm_format>(config.format));
+    Maps maps[3];
+    for (int fill = 0; fill < 3; ++fill) {
+      Arena arena(arena_bytes(config));
+      uint8_t* bytes = static_cast<uint8_t*>(arena.data());
+      for (size_t b = 0; b < arena.size(); ++b) bytes[b] = fill == 0 ? 0 : fill == 1 ? 0xff : rng.byte();
+      bsm_context* context = nullptr;
+      REQUIRE_EQ(bsm_open(&config, arena.data(), arena.size(), &context), BSM_OK);
+      maps[fill] = stream_rows(context, config, pair);
+    }
+    check_same(maps[1], maps[0]);
+    check_same(maps[2], maps[0]);
+  }
+}
+
+TEST_CASE(images_at_page_edges_are_not_read_beyond) {
+  if (!GuardedBuffer::available()) SKIP("this system has no page protection that the test knows");
+  Rng rng(seed() + 4);
+  for (int i = repeats(60); i-- > 0;) {
+    const bsm_config config = random_config(rng, rng.range(1, 70), rng.range(1, 24), rng.one_in(4));
+    const Scope scope(describe(config));
+    const EncodedPair pair =
+        encode(make_pair(rng, Content::kShifted, config.width, config.height), static_cast<bsm_format>(config.format));
+    const Maps expected = match_frame(config, pair);
+    const auto edge = rng.one_in(2) ? GuardedBuffer::Edge::kEnd : GuardedBuffer::Edge::kBegin;
+    const size_t pixels = static_cast<size_t>(config.width) * static_cast<size_t>(config.height);
+    GuardedBuffer left(pair.left.bytes.size(), edge), right(pair.right.bytes.size(), edge), arena(arena_bytes(config), edge);
+    GuardedBuffer map(pixels * 2, edge), right_map(pixels * 2, edge), confidence(pixels, edge);
+    std::copy(pair.left.bytes.begin(), pair.left.bytes.end(), left.data());
+    std::copy(pair.right.bytes.begin(), pair.right.bytes.end(), right.data());
+    left.make_read_only();
+    right.make_read_only();
+    bsm_context* context = nullptr;
+    REQUIRE_EQ(bsm_open(&config, arena.data(), arena.size(), &context), BSM_OK);
+    bsm_frame frame{};
+    frame.left = {{left.data(), nullptr}, {pair.left.stride, 0}};
+    frame.right = {{right.data(), nullptr}, {pair.right.stride, 0}};
+    const ptrdiff_t map_stride = static_cast<ptrdiff_t>(config.width) * 2;
+    frame.disparity = {reinterpret_cast<int16_t*>(map.data()), map_stride};
+    if (config.right_map) frame.right_disparity = {reinterpret_cast<int16_t*>(right_map.data()), map_stride};
+    if (config.confidence) {
+      frame.confidence = {confidence.data(), config.width};
+    }
+    REQUIRE_EQ(bsm_process(context, &frame), BSM_OK);
+    const int16_t* values = reinterpret_cast<const int16_t*>(map.data());
+    check_same_map({values, values + pixels}, expected.left, config.width, "left map");
+    if (config.right_map) {
+      values = reinterpret_cast<const int16_t*>(right_map.data());
+      check_same_map({values, values + pixels}, expected.right, config.width, "right map");
+    }
+    if (config.confidence) {
+      check_same_map({confidence.data(), confidence.data() + pixels}, expected.confidence, config.width, "confidence");
+    }
+  }
+}
+
+TEST_CASE(rows_at_page_edges_are_not_read_beyond) {
+  if (!GuardedBuffer::available()) SKIP("this system has no page protection that the test knows");
+  Rng rng(seed() + 5);
+  for (int i = repeats(30); i-- > 0;) {
+    const bsm_config config = random_config(rng, rng.range(1, 70), rng.range(1, 24));
+    const Scope scope(describe(config));
+    const EncodedPair pair =
+        encode(make_pair(rng, Content::kShifted, config.width, config.height), static_cast<bsm_format>(config.format));
+    const Maps expected = match_frame(config, pair);
+    const size_t row_bytes = static_cast<size_t>(pair.left.stride), width = static_cast<size_t>(config.width);
+    const auto edge = rng.one_in(2) ? GuardedBuffer::Edge::kEnd : GuardedBuffer::Edge::kBegin;
+    GuardedBuffer left(row_bytes, edge), right(row_bytes, edge), out(width * 2, edge), right_out(width * 2, edge);
+    Arena arena(arena_bytes(config));
+    bsm_context* context = nullptr;
+    REQUIRE_EQ(bsm_open(&config, arena.data(), arena.size(), &context), BSM_OK);
+    std::vector<int16_t> map;
+    int16_t* row = reinterpret_cast<int16_t*>(out.data());
+    int16_t* right_row = config.right_map ? reinterpret_cast<int16_t*>(right_out.data()) : nullptr;
+    for (int y = 0; y < config.height; ++y) {
+      std::copy_n(pair.left.row(y), row_bytes, left.data());
+      std::copy_n(pair.right.row(y), row_bytes, right.data());
+      const bsm_row l{{left.data(), nullptr}}, r{{right.data(), nullptr}};
+      REQUIRE_EQ(bsm_push_row(context, &l, &r), BSM_OK);
+      while (bsm_pull_row(context, row, right_row, nullptr) == BSM_OK) map.insert(map.end(), row, row + width);
+    }
+    check_same_map(map, expected.left, config.width, "left map");
+  }
+}
+
+TEST_CASE(strides_of_both_signs_and_padding) {
+  Rng rng(seed() + 6);
+  for (int i = repeats(60); i-- > 0;) {
+    const bsm_config config = random_config(rng, rng.range(1, 30), rng.range(1, 24), rng.one_in(4));
+    const ColorPair colors = make_pair(rng, Content::kShifted, config.width, config.height);
+    const bsm_format format = static_cast<bsm_format>(config.format);
+    const Maps expected = match_frame(config, encode(colors, format));
+
+    const int padding = rng.range(0, 9);
+    const bool left_up = rng.one_in(2), right_up = rng.one_in(2), map_up = rng.one_in(2);
+    const Scope scope(describe(config) + " padding=" + text_of(padding) + " upward=" + text_of(left_up) + text_of(right_up) +
+                      text_of(map_up));
+    const auto flip = [](ColorImage image) {
+      const size_t row = static_cast<size_t>(image.width) * 3;
+      for (int y = 0; y < image.height / 2; ++y) {
+        std::swap_ranges(image.at(0, y), image.at(0, y) + row, image.at(0, image.height - 1 - y));
+      }
+      return image;
+    };
+    // Odd starts, so that no pixel is aligned.
+    const auto place = [](const PixelImage& image, std::vector<uint8_t>& memory) {
+      memory.assign(image.bytes.size() + 1, 0);
+      std::copy(image.bytes.begin(), image.bytes.end(), memory.begin() + 1);
+      return memory.data() + 1;
+    };
+    std::vector<uint8_t> left_memory, right_memory;
+    const PixelImage left = encode(left_up ? flip(colors.left) : colors.left, format, padding);
+    const PixelImage right = encode(right_up ? flip(colors.right) : colors.right, format, padding + 3);
+    const uint8_t* left_data = place(left, left_memory);
+    const uint8_t* right_data = place(right, right_memory);
+    const std::vector<uint8_t> left_before = left_memory, right_before = right_memory;
+
+    GuardedMap map(config.width, config.height, config.width + rng.range(0, 5), map_up);
+    GuardedMap right_map(config.width, config.height, config.width + rng.range(0, 5), !map_up);
+    Arena arena(arena_bytes(config), static_cast<size_t>(rng.range(0, 63)));
+    bsm_context* context = nullptr;
+    REQUIRE_EQ(bsm_open(&config, arena.data(), arena.size(), &context), BSM_OK);
+    const ptrdiff_t last = config.height - 1;
+    bsm_frame frame{};
+    frame.left = left_up ? bsm_image{{left_data + last * left.stride, nullptr}, {-left.stride, 0}}
+                         : bsm_image{{left_data, nullptr}, {left.stride, 0}};
+    frame.right = right_up ? bsm_image{{right_data + last * right.stride, nullptr}, {-right.stride, 0}}
+                           : bsm_image{{right_data, nullptr}, {right.stride, 0}};
+    frame.disparity = map.map();
+    if (config.right_map) frame.right_disparity = right_map.map();
+    const ptrdiff_t confidence_stride = config.width + rng.range(0, 5);
+    const bool confidence_up = rng.one_in(2);
+    std::vector<uint8_t> confidence(static_cast<size_t>(confidence_stride * config.height), 0x5a);
+    if (config.confidence) {
+      frame.confidence = confidence_up ? bsm_byte_map{confidence.data() + last * confidence_stride, -confidence_stride}
+                                       : bsm_byte_map{confidence.data(), confidence_stride};
+    }
+    REQUIRE_EQ(bsm_process(context, &frame), BSM_OK);
+    check_same_map(map.pixels(), expected.left, config.width, "left map");
+    CHECK(map.gaps_intact());
+    if (config.right_map) check_same_map(right_map.pixels(), expected.right, config.width, "right map");
+    CHECK(right_map.gaps_intact());
+    for (int y = 0; config.confidence && y < config.height; ++y) {
+      const uint8_t* row = confidence.data() + (confidence_up ? last - y : y) * confidence_stride;
+      const uint8_t* expected_row = expected.confidence.data() + y * config.width;
+      CHECK(std::equal(row, row + config.width, expected_row));
+      CHECK(std::all_of(row + config.width, row + confidence_stride, [](uint8_t v) { return v == 0x5a; }));
+    }
+    CHECK(left_memory == left_before && right_memory == right_before);
+  }
+}
+
+TEST_CASE(a_frame_may_leave_the_right_map_out) {
+  Rng rng(seed() + 7);
+  bsm_config config = random_config(rng, 20, 16);
+  config.right_map = 1;
+  const EncodedPair pair = encode(make_pair(rng, Content::kShifted, 20, 16), static_cast<bsm_format>(config.format));
+  const Maps expected = match_frame(config, pair);
+  config.right_map = 0;
+  check_same_map(match_frame(config, pair).left, expected.left, 20, "left map");  // the right map changes nothing in it
+  config.right_map = 1;
+  Arena arena(arena_bytes(config));
+  bsm_context* context = nullptr;
+  REQUIRE_EQ(bsm_open(&config, arena.data(), arena.size(), &context), BSM_OK);
+  std::vector<int16_t> map(320);
+  bsm_frame frame{};
+  frame.left = pair.left.view();
+  frame.right = pair.right.view();
+  frame.disparity = {map.data(), 40};
+  REQUIRE_EQ(bsm_process(context, &frame), BSM_OK);
+  check_same_map(map, expected.left, 20, "left map");
+}
