@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 #include <vector>
 
 #include "bsm/bsm.h"
@@ -81,7 +82,7 @@ bsm_config read_config(Input& input) {
   config.confidence = input.near(0, 1);
   config.max_jobs = small ? input.near(1, 3) : input.near(1, BSM_MAX_JOBS);
   config.isa_mask = static_cast<uint32_t>(input.word());
-  if (input.byte() == 7) config.reserved[input.byte() % 7] = input.byte();
+  if (input.byte() == 7) config.reserved[input.byte() % std::size(config.reserved)] = input.byte();
   if (input.byte() == 7) config.struct_size = static_cast<uint32_t>(input.word());
   return config;
 }
