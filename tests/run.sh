@@ -44,7 +44,6 @@ exec < /dev/null
 require_tools cc c++ cmake make || exit 1
 
 jobs=$(getconf _NPROCESSORS_ONLN 2> /dev/null || echo 2)
-sanitizers="-fsanitize=address,undefined,alignment -fno-sanitize-recover=all -fno-omit-frame-pointer"
 passed=0
 failed=()
 skipped=()
@@ -104,50 +103,6 @@ links() {
   return $good
 }
 
-main_program='int main() { return 0; }'
-fuzz_program='extern "C" int LLVMFuzzerTestOneInput(const unsigned char*, unsigned long) { return 0; }'
-
-run_native() { run_suite native tests . -DCMAKE_BUILD_TYPE=Release; }
-
-run_asan() {
-  # shellcheck disable=SC2086  # options are words of their own
-  if ! links "$main_program" ${CXX:-c++} $sanitizers; then
-    skipped+=("asan: ${CXX:-c++} does not link $sanitizers; install its sanitizer runtime (Debian: libasan, libubsan)")
-    return
-  fi
-  run_suite asan asan . -DCMAKE_BUILD_TYPE=RelWithDebInfo "-DCMAKE_C_FLAGS=$sanitizers" "-DCMAKE_CXX_FLAGS=$sanitizers"
-}
-
-# Set by have_clang; the two suites that need clang say the same.
-no_clang="clang is not installed and cannot be installed here (Debian and Ubuntu: apt-get install clang)"
-have_clang() { require_tools clang clang++ > /dev/null 2>&1; }
-
-run_clang() {
-  have_clang || {
-    skipped+=("clang: $no_clang")
-    return
-  }
-  run_suite clang clang . -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++
-}
-
-run_fuzz() {
-  have_clang || {
-    skipped+=("fuzz: $no_clang")
-    return
-  }
-  local flags="-fsanitize=address,undefined -fno-sanitize-recover=all" runtime
-  runtime=libclang-rt-$(clang++ -dumpversion | cut -d. -f1)-dev
-  # shellcheck disable=SC2086
-  if ! links "$fuzz_program" clang++ -fsanitize=fuzzer $flags && ! { install_packages "$runtime" > /dev/null 2>&1 &&
-    links "$fuzz_program" clang++ -fsanitize=fuzzer $flags; }; then
-    skipped+=("fuzz: clang++ does not link -fsanitize=fuzzer (Debian and Ubuntu: apt-get install $runtime)")
-    return
-  fi
-  run_suite fuzz fuzz '^fuzz_' -DCMAKE_BUILD_TYPE=RelWithDebInfo -DBSM_BUILD_FUZZERS=ON -DBSM_BUILD_BENCH=OFF \
-    -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ "-DCMAKE_C_FLAGS=$flags" \
-    "-DCMAKE_CXX_FLAGS=$flags -fsanitize=fuzzer-no-link"
-}
-
 # emulate SUITE BUILD CPU ISA EMULATOR...: the tests of kernels and hashes on an emulated CPU, which has to choose the kernels of
 # that instruction set; an instruction that it lacks ends the test.
 emulate() {
@@ -164,42 +119,11 @@ emulate() {
   done
 }
 
-# The x86 tiers that this machine's own run does not choose.
-run_tiers() {
-  if [ "$(uname -m)" != x86_64 ]; then
-    skipped+=("tiers: the build is not for x86-64")
-  elif ! require_tools qemu-x86_64 > /dev/null 2>&1; then
-    skipped+=("tiers: qemu-x86_64 is not installed and cannot be installed here (Debian and Ubuntu: apt-get install qemu-user)")
-  elif [ -x "$root/build/tests/tests/test_kernels" ]; then
-    echo "== tiers: x86 processors of several ages"
-    emulate tiers "$root/build/tests" core2duo scalar qemu-x86_64
-    emulate tiers "$root/build/tests" Nehalem sse42 qemu-x86_64
-    emulate tiers "$root/build/tests" Haswell avx2 qemu-x86_64
-  fi
-}
-
-# cross SUITE TRIPLE EMULATOR CPU:ISA...
-cross() {
-  local suite=$1 triple=$2 emulator=$3 build=$root/build/$1 entry
-  shift 3
-  if ! require_tools "$triple-g++" "$emulator" > /dev/null 2>&1; then
-    skipped+=("$suite: $triple-g++ or $emulator is not installed and cannot be installed here (Debian and Ubuntu: apt-get install g++-$triple qemu-user)")
-    return
-  fi
-  echo "== $suite: building in $build"
-  mkdir -p "$build"
-  if ! { cmake -S "$root" -B "$build" "-DCMAKE_TOOLCHAIN_FILE=$root/toolchains/$triple.cmake" -DCMAKE_BUILD_TYPE=Release \
-    -DBSM_WERROR=ON -DBSM_BUILD_BENCH=OFF && cmake --build "$build" --parallel "$jobs" --target test_kernels test_golden; } \
-    > "$build/build.log" 2>&1; then
-    cat "$build/build.log"
-    failed+=("$suite build (the output is above and in $build/build.log)")
-    return
-  fi
-  for entry in "$@"; do emulate "$suite" "$build" "${entry%%:*}" "${entry#*:}" "$emulator" -L "/usr/$triple"; done
-}
-
-run_arm64() { cross arm64 aarch64-linux-gnu qemu-aarch64 cortex-a53:neon; }
-run_arm32() { cross arm32 arm-linux-gnueabihf qemu-arm cortex-a7:neon cortex-a9,neon=off:scalar; }
+# Each file holds suites: functions run_<suite> that count what passed, failed and was skipped.
+for file in "$root"/tests/suites/*.sh; do
+  # shellcheck source=/dev/null
+  . "$file"
+done
 
 for suite in $suites; do "run_$suite"; done
 

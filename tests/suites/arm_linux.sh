@@ -1,0 +1,25 @@
+# shellcheck shell=bash disable=SC2154  # root, jobs and the counts are run.sh's
+# Kernels of ARM Linux processors, under emulation.
+
+# cross SUITE TRIPLE EMULATOR CPU:ISA...
+cross() {
+  local suite=$1 triple=$2 emulator=$3 build=$root/build/$1 entry
+  shift 3
+  if ! require_tools "$triple-g++" "$emulator" > /dev/null 2>&1; then
+    skipped+=("$suite: $triple-g++ or $emulator is not installed and cannot be installed here (Debian and Ubuntu: apt-get install g++-$triple qemu-user)")
+    return
+  fi
+  echo "== $suite: building in $build"
+  mkdir -p "$build"
+  if ! { cmake -S "$root" -B "$build" "-DCMAKE_TOOLCHAIN_FILE=$root/toolchains/$triple.cmake" -DCMAKE_BUILD_TYPE=Release \
+    -DBSM_WERROR=ON -DBSM_BUILD_BENCH=OFF && cmake --build "$build" --parallel "$jobs" --target test_kernels test_golden; } \
+    > "$build/build.log" 2>&1; then
+    cat "$build/build.log"
+    failed+=("$suite build (the output is above and in $build/build.log)")
+    return
+  fi
+  for entry in "$@"; do emulate "$suite" "$build" "${entry%%:*}" "${entry#*:}" "$emulator" -L "/usr/$triple"; done
+}
+
+run_arm64() { cross arm64 aarch64-linux-gnu qemu-aarch64 cortex-a53:neon; }
+run_arm32() { cross arm32 arm-linux-gnueabihf qemu-arm cortex-a7:neon cortex-a9,neon=off:scalar; }

@@ -1,0 +1,34 @@
+# shellcheck shell=bash disable=SC2154  # root, jobs and the counts are run.sh's
+# Builds that need clang: the native tests compiled by it, and the fuzzers for a short fixed count.
+
+# Set by have_clang; the two suites that need clang say the same.
+no_clang="clang is not installed and cannot be installed here (Debian and Ubuntu: apt-get install clang)"
+have_clang() { require_tools clang clang++ > /dev/null 2>&1; }
+
+run_clang() {
+  have_clang || {
+    skipped+=("clang: $no_clang")
+    return
+  }
+  run_suite clang clang . -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++
+}
+
+fuzz_program='extern "C" int LLVMFuzzerTestOneInput(const unsigned char*, unsigned long) { return 0; }'
+
+run_fuzz() {
+  have_clang || {
+    skipped+=("fuzz: $no_clang")
+    return
+  }
+  local flags="-fsanitize=address,undefined -fno-sanitize-recover=all" runtime
+  runtime=libclang-rt-$(clang++ -dumpversion | cut -d. -f1)-dev
+  # shellcheck disable=SC2086
+  if ! links "$fuzz_program" clang++ -fsanitize=fuzzer $flags && ! { install_packages "$runtime" > /dev/null 2>&1 &&
+    links "$fuzz_program" clang++ -fsanitize=fuzzer $flags; }; then
+    skipped+=("fuzz: clang++ does not link -fsanitize=fuzzer (Debian and Ubuntu: apt-get install $runtime)")
+    return
+  fi
+  run_suite fuzz fuzz '^fuzz_' -DCMAKE_BUILD_TYPE=RelWithDebInfo -DBSM_BUILD_FUZZERS=ON -DBSM_BUILD_BENCH=OFF \
+    -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ "-DCMAKE_C_FLAGS=$flags" \
+    "-DCMAKE_CXX_FLAGS=$flags -fsanitize=fuzzer-no-link"
+}

@@ -1,0 +1,16 @@
+# shellcheck shell=bash disable=SC2154  # root, jobs and the counts are run.sh's
+# Kernels of older x86 processors, under emulation.
+
+# The x86 tiers that this machine's own run does not choose.
+run_tiers() {
+  if [ "$(uname -m)" != x86_64 ]; then
+    skipped+=("tiers: the build is not for x86-64")
+  elif ! require_tools qemu-x86_64 > /dev/null 2>&1; then
+    skipped+=("tiers: qemu-x86_64 is not installed and cannot be installed here (Debian and Ubuntu: apt-get install qemu-user)")
+  elif [ -x "$root/build/tests/tests/test_kernels" ]; then
+    echo "== tiers: x86 processors of several ages"
+    emulate tiers "$root/build/tests" core2duo scalar qemu-x86_64
+    emulate tiers "$root/build/tests" Nehalem sse42 qemu-x86_64
+    emulate tiers "$root/build/tests" Haswell avx2 qemu-x86_64
+  fi
+}
