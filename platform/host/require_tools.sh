@@ -31,6 +31,7 @@ package_of() {
     aarch64-linux-gnu-g++) echo g++-aarch64-linux-gnu ;;
     arm-linux-gnueabihf-g++) echo g++-arm-linux-gnueabihf ;;
     qemu-aarch64 | qemu-arm | qemu-x86_64) echo qemu-user ;;
+    arm-none-eabi-*) echo gcc-arm-none-eabi ;;
     *) echo "$1" ;;
   esac
 }
