@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <thread>
 
+#include "simd/kernels.h"
+
 namespace bsm::test {
 namespace {
 
@@ -148,6 +150,21 @@ std::vector<uint32_t> isa_masks() {
     if (features >> bit & 1) masks.push_back(features & static_cast<uint32_t>((uint64_t{2} << bit) - 1));
   }
   return masks;
+}
+
+std::string best_isa(uint32_t isa_mask) {
+  const uint32_t features = bsm_cpu_features() & isa_mask;
+  uint32_t most = 0;
+  std::string best;
+  // Features of a better instruction set are higher bits.
+#define BSM_KERNEL(stage, operation, isa, required, block)   \
+  if (((required) & ~features) == 0 && (required) >= most) { \
+    most = (required);                                       \
+    best = #isa;                                             \
+  }
+#include "simd/kernels.def"
+#undef BSM_KERNEL
+  return best;
 }
 
 void randomize(Rng& rng, bsm_config& config, bool whole_frame) {

@@ -63,6 +63,9 @@ void randomize(Rng& rng, bsm_config& config, bool whole_frame = false);
 // those before it.
 std::vector<uint32_t> isa_masks();
 
+// Name of the instruction set of the best kernels that this machine runs under such a mask, as in simd/kernels.def.
+std::string best_isa(uint32_t isa_mask);
+
 size_t arena_bytes(const bsm_config& config);
 
 // How the jobs of a frame are run.

@@ -47,6 +47,40 @@ jobs=$(getconf _NPROCESSORS_ONLN 2> /dev/null || echo 2)
 passed=0
 failed=()
 skipped=()
+table=()
+
+# add_row TARGET CPU KERNELS LOCAL_HASH SGM_HASH WAYS RESULT: a line of the table of targets. KERNELS are the instruction sets
+# that ran, WAYS is frame, rows or frame+rows, RESULT is passed, failed or skipped; "-" stands for what there is none of.
+add_row() {
+  local IFS=$'\t'
+  table+=("$*")
+}
+
+# add_target_row TARGET CPU RESULT OUTPUT: the same with what test_targets wrote in OUTPUT, "target: KERNELS LOCAL SGM WAYS".
+add_target_row() {
+  local kernels local_hash sgm_hash ways
+  read -r kernels local_hash sgm_hash ways < <(sed -n 's/^target: //p' <<< "$4")
+  add_row "$1" "$2" "${kernels:--}" "${local_hash:--}" "${sgm_hash:--}" "${ways:--}" "$3"
+}
+
+# skip_target TARGET CPU REASON: counts a target as skipped, in the table too.
+skip_target() {
+  skipped+=("$1: $3")
+  add_row "$1" "$2" - - - - skipped
+}
+
+print_table() {
+  printf '%s\n' $'target\tprocessor\tkernels\tlocal hash\tsgm hash\tways\tresult' "${table[@]}" | awk -F '\t' '
+    { for (i = 1; i <= NF; i++) { cell[NR, i] = $i; if (length($i) > width[i]) width[i] = length($i) } }
+    END {
+      for (row = 1; row <= NR; row++) {
+        line = ""
+        for (i = 1; i <= NF; i++) line = line sprintf("%-" width[i] "s  ", cell[row, i])
+        sub(/ +$/, "", line)
+        print line
+      }
+    }'
+}
 
 # Counts the results of one ctest run by its output, and takes the reasons of skips from its log.
 count_results() {
@@ -71,6 +105,13 @@ count_results() {
   done < <(sed -nE 's/^ *[0-9]+\/[0-9]+ Test +#[0-9]+: ([^ ]+) \.*[ *]*([A-Z][A-Za-z]*( Run)?( \([A-Za-z]*\))?).*/\1\t\2/p' "$output")
 }
 
+# The table's line of a ctest run that held test_targets.
+add_ctest_row() {
+  local result=failed
+  grep -q ' test_targets \.* *Passed' "$2" && result=passed
+  grep -q ' test_targets ' "$2" && add_target_row "$1" "$(uname -m), this one" "$result" "$(cat "$3")"
+}
+
 # run_suite NAME FOLDER CTEST_PATTERN CMAKE_OPTION...
 run_suite() {
   local suite=$1 build=$root/build/$2 pattern=$3 before=$((passed + ${#failed[@]} + ${#skipped[@]}))
@@ -87,6 +128,7 @@ run_suite() {
   (cd "$build" && ctest --output-on-failure -j "$jobs" -R "$pattern") 2>&1 | tee "$build/ctest.out"
   if [ -f "$build/Testing/Temporary/LastTest.log" ]; then
     count_results "$suite" "$build/ctest.out" "$build/Testing/Temporary/LastTest.log"
+    add_ctest_row "$suite" "$build/ctest.out" "$build/Testing/Temporary/LastTest.log"
   fi
   [ $((passed + ${#failed[@]} + ${#skipped[@]})) -gt "$before" ] || failed+=("$suite: ctest ran nothing")
 }
@@ -106,17 +148,20 @@ links() {
 # emulate SUITE BUILD CPU ISA EMULATOR...: the tests of kernels and hashes on an emulated CPU, which has to choose the kernels of
 # that instruction set; an instruction that it lacks ends the test.
 emulate() {
-  local suite=$1 build=$2 cpu=$3 isa=$4 name output
+  local suite=$1 build=$2 cpu=$3 isa=$4 name output all="" result=passed
   shift 4
-  for name in test_kernels test_golden; do
+  for name in test_kernels test_golden test_targets; do
     if output=$(BSM_EXPECT_ISA=$isa BSM_TEST_EFFORT=25 "$@" -cpu "$cpu" "$build/tests/$name" 2>&1); then
       echo "$suite $cpu: $name passed with $isa kernels"
       passed=$((passed + 1))
     else
       printf '%s\n' "$output" | grep -v '^ok' | head -n 40
       failed+=("$suite $cpu: $name")
+      result=failed
     fi
+    all+=$output$'\n'
   done
+  add_target_row "$suite" "$cpu" "$result" "$all"
 }
 
 # Each file holds suites: functions run_<suite> that count what passed, failed and was skipped.
@@ -127,6 +172,10 @@ done
 
 for suite in $suites; do "run_$suite"; done
 
+if [ ${#table[@]} -gt 0 ]; then
+  printf '\n== the synthetic scene on each target\n'
+  print_table
+fi
 echo
 echo "== summary"
 [ ${#failed[@]} -eq 0 ] || printf 'failed:  %s\n' "${failed[@]}"

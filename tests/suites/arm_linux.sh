@@ -6,13 +6,13 @@ cross() {
   local suite=$1 triple=$2 emulator=$3 build=$root/build/$1 entry
   shift 3
   if ! require_tools "$triple-g++" "$emulator" > /dev/null 2>&1; then
-    skipped+=("$suite: $triple-g++ or $emulator is not installed and cannot be installed here (Debian and Ubuntu: apt-get install g++-$triple qemu-user)")
+    skip_target "$suite" - "$triple-g++ or $emulator is not installed and cannot be installed here (Debian and Ubuntu: apt-get install g++-$triple qemu-user)"
     return
   fi
   echo "== $suite: building in $build"
   mkdir -p "$build"
   if ! { cmake -S "$root" -B "$build" "-DCMAKE_TOOLCHAIN_FILE=$root/toolchains/$triple.cmake" -DCMAKE_BUILD_TYPE=Release \
-    -DBSM_WERROR=ON -DBSM_BUILD_BENCH=OFF && cmake --build "$build" --parallel "$jobs" --target test_kernels test_golden; } \
+    -DBSM_WERROR=ON -DBSM_BUILD_BENCH=OFF && cmake --build "$build" --parallel "$jobs" --target test_kernels test_golden test_targets; } \
     > "$build/build.log" 2>&1; then
     cat "$build/build.log"
     failed+=("$suite build (the output is above and in $build/build.log)")

@@ -4,13 +4,14 @@
 # The x86 tiers that this machine's own run does not choose.
 run_tiers() {
   if [ "$(uname -m)" != x86_64 ]; then
-    skipped+=("tiers: the build is not for x86-64")
+    skip_target x86-64 - "the build is not for x86-64"
   elif ! require_tools qemu-x86_64 > /dev/null 2>&1; then
-    skipped+=("tiers: qemu-x86_64 is not installed and cannot be installed here (Debian and Ubuntu: apt-get install qemu-user)")
+    skip_target x86-64 - "qemu-x86_64 is not installed and cannot be installed here (Debian and Ubuntu: apt-get install qemu-user)"
   elif [ -x "$root/build/tests/tests/test_kernels" ]; then
     echo "== tiers: x86 processors of several ages"
-    emulate tiers "$root/build/tests" core2duo scalar qemu-x86_64
-    emulate tiers "$root/build/tests" Nehalem sse42 qemu-x86_64
-    emulate tiers "$root/build/tests" Haswell avx2 qemu-x86_64
+    emulate x86-64 "$root/build/tests" core2duo scalar qemu-x86_64
+    emulate x86-64 "$root/build/tests" Nehalem sse42 qemu-x86_64
+    emulate x86-64 "$root/build/tests" SandyBridge sse42 qemu-x86_64
+    emulate x86-64 "$root/build/tests" Haswell avx2 qemu-x86_64
   fi
 }
