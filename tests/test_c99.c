@@ -1,4 +1,5 @@
-/* test_c99.c - uses the public header from C99: a frame, the same image as rows, and the answers of the small calls. */
+/* test_c99.c - uses the public header from C99: a frame, the same image as rows, and the answers of the small calls. The
+ * environment variable BSM_EXPECT_ISA names the instruction set whose kernel has to match. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,6 +41,9 @@ int main(void) {
   int32_t delay = 0, jobs_run = 0;
   int x, y, channel, pulled = 0, right_answers = 0;
   void* arena;
+  char version[40];
+  const char* kernel;
+  const char* expected_isa = getenv("BSM_EXPECT_ISA");
 
   for (y = 0; y < kHeight; ++y) {
     for (x = 0; x < kWidth; ++x) {
@@ -91,9 +95,12 @@ int main(void) {
   check(bsm_reset(context) == BSM_OK, "reset");
   check(bsm_finish(context) == BSM_OK, "finish");
   check(bsm_invalid_disparity(&config) == -BSM_DISPARITY_SCALE, "invalid_disparity");
-  check(strlen(bsm_version()) >= 5, "version");
+  sprintf(version, "%d.%d.%d", BSM_VERSION_MAJOR, BSM_VERSION_MINOR, BSM_VERSION_PATCH);
+  check(strcmp(bsm_version(), version) == 0, "the library has the version of its header");
   check(strlen(bsm_status_string(BSM_ERROR_ARENA)) > 0, "status_string");
-  check(bsm_kernel_name(context, BSM_KERNEL_MATCH) != NULL, "kernel_name");
+  kernel = bsm_kernel_name(context, BSM_KERNEL_MATCH);
+  check(kernel != NULL, "kernel_name");
+  if (expected_isa != NULL) check(kernel != NULL && strcmp(strrchr(kernel, '_') + 1, expected_isa) == 0, kernel);
   check(bsm_cpu_features() == 0 || bsm_cpu_feature_name(-1) == NULL, "cpu_features");
   free(arena);
   printf("%s\n", failures == 0 ? "ok: C99" : "FAILED: C99");
