@@ -30,6 +30,7 @@ package_of() {
     ninja) echo ninja-build ;;
     aarch64-linux-gnu-g++) echo g++-aarch64-linux-gnu ;;
     arm-linux-gnueabihf-g++) echo g++-arm-linux-gnueabihf ;;
+    llvm-mca-16) echo llvm-16 ;;
     qemu-aarch64 | qemu-arm | qemu-x86_64) echo qemu-user ;;
     arm-none-eabi-*) echo gcc-arm-none-eabi ;;
     *) echo "$1" ;;
