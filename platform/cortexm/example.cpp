@@ -8,16 +8,17 @@
 #include "bsm/bsm.h"
 #include "cortexm/pnm_rows.h"
 #include "cortexm/semihosting.h"
+#include "cortexm/text.h"
 
 using namespace bsm::cortexm;
 
 namespace {
 
-constexpr int32_t kMaxWidth = BSM_EXAMPLE_WIDTH;
+constexpr int32_t kMaxWidth = BSM_IMAGE_WIDTH;
 
 // All the memory that matching takes, beside 2 KB of stack. `bsm info` on a computer tells how many bytes a configuration
 // needs.
-alignas(64) uint8_t arena[BSM_EXAMPLE_ARENA];
+alignas(64) uint8_t arena[BSM_IMAGE_BYTES];
 // A row of each camera and of the map.
 uint8_t left_row[3 * kMaxWidth], right_row[3 * kMaxWidth];
 int16_t disparities[kMaxWidth];
@@ -77,20 +78,6 @@ void match(const char* left_path, const char* right_path, const char* map_path) 
     send_rows(context, map);
   }
   host_close(map.file);
-}
-
-// Ends the words of a text with zeros; returns how many there are, `most` at most.
-int32_t split_words(char* text, char** words, int32_t most) {
-  int32_t count = 0;
-  while (*text != 0 && count < most) {
-    if (*text == ' ') {
-      *text++ = 0;
-      continue;
-    }
-    words[count++] = text;
-    while (*text != 0 && *text != ' ') ++text;
-  }
-  return count;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "cortexm/pnm_rows.h"
 
 #include "cortexm/semihosting.h"
+#include "cortexm/text.h"
 
 namespace bsm::cortexm {
 namespace {
@@ -27,18 +28,6 @@ int32_t read_number(int32_t file) {
     if (!host_read(file, &c, 1)) return -1;
   }
   return is_space(c) ? number : -1;
-}
-
-// Both append at `end` and return the new end.
-char* append_text(char* end, const char* text) {
-  while (*text != 0) *end++ = *text++;
-  return end;
-}
-
-char* append_number(char* end, int32_t number) {
-  if (number >= 10) end = append_number(end, number / 10);
-  *end = static_cast<char>('0' + number % 10);
-  return end + 1;
 }
 
 }  // namespace
@@ -68,9 +57,9 @@ const char* create_map(const char* path, int32_t width, int32_t height, int16_t 
   if (map->file < 0) return "cannot be created";
   char header[32];
   char* end = append_text(header, "P5\n");
-  end = append_number(end, width);
+  end = append_decimal(end, static_cast<uint32_t>(width));
   end = append_text(end, " ");
-  end = append_number(end, height);
+  end = append_decimal(end, static_cast<uint32_t>(height));
   end = append_text(end, "\n65535\n");
   return host_write(map->file, header, static_cast<size_t>(end - header)) ? nullptr : "cannot be written";
 }

@@ -21,6 +21,10 @@ void PendSV_Handler() BSM_DEFAULT;
 void SysTick_Handler() BSM_DEFAULT;
 
 void Reset_Handler() {
+#if defined(__ARM_ARCH_6M__)
+  // Where such an image runs on a larger core, misaligned accesses fault as well.
+  *reinterpret_cast<volatile uint32_t*>(0xe000ed14) |= 1u << 3;
+#endif
 #if defined(__ARM_FEATURE_MVE) || defined(__ARM_FP)
   // Vector and floating-point instructions fault until coprocessors 10 and 11 are enabled.
   *reinterpret_cast<volatile uint32_t*>(0xe000ed88) |= 0xfu << 20;
