@@ -2,19 +2,17 @@
 #include "bench/frame_bench.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <vector>
 
+#include "bench/frame_run.h"
+#include "bench/statistics.h"
 #include "bench/table.h"
 #include "bsm/bsm.h"
-#include "host/arena.h"
 #include "host/image.h"
-#include "host/pnm_read.h"
 #include "host/run_match.h"
 #include "host/text.h"
-#include "host/thread_pool.h"
 
 namespace bsm::bench {
 namespace {
@@ -23,84 +21,37 @@ using host::text;
 
 constexpr double kNoisy = 2.0;  // slowest run over fastest above which a note is printed
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
-}
-
-bool read_view(const std::string& path, host::Image8* image, std::string* error) {
-  host::SampleImage samples;
-  if (!host::read_pnm_file(path, &samples, error)) return false;
-  *image = host::to_image8(samples);
-  return true;
-}
-
-bsm_image view_of(const host::Image8& image) {
-  return bsm_image{{image.pixels.data(), nullptr}, {static_cast<ptrdiff_t>(image.row_bytes()), 0}};
-}
-
 // A context whose map is that of one stage.
 struct StageRun {
-  bsm_config config{};
-  host::Arena arena;
-  bsm_context* context = nullptr;
-  size_t bytes = 0;
+  FrameRun frames;
   std::vector<double> milliseconds;
 
+  const bsm_config& config() const { return frames.config(); }
   double fastest() const { return *std::min_element(milliseconds.begin(), milliseconds.end()); }
   double slowest() const { return *std::max_element(milliseconds.begin(), milliseconds.end()); }
 };
 
-bool open_run(StageRun* run, std::string* error) {
-  bsm_status status = bsm_memory_required(&run->config, &run->bytes);
-  if (status >= 0 && !run->arena.allocate(run->bytes)) {
-    *error = text("cannot allocate %zu bytes; fewer --threads, --disparities or --bits need less", run->bytes);
-    return false;
-  }
-  if (status >= 0) status = bsm_open(&run->config, run->arena.data(), run->arena.size(), &run->context);
-  if (status < 0) *error = host::config_error(status);
-  return status >= 0;
-}
-
 using Runs = std::vector<std::unique_ptr<StageRun>>;
 
 // Contexts of the stages that the method has, the last of them refined.
-bool open_runs(const bsm_config& config, Runs* runs, std::string* error) {
+bool open_runs(bsm_config config, Runs* runs, std::string* error) {
   for (const bsm_stage stage :
        {BSM_STAGE_COST, BSM_STAGE_MASKED, BSM_STAGE_AGGREGATED, BSM_STAGE_CHECKED, BSM_STAGE_REFINED}) {
-    auto run = std::make_unique<StageRun>();
-    run->config = config;
-    run->config.stage = stage;
-    if (bsm_memory_required(&run->config, &run->bytes) == BSM_ERROR_STAGE) continue;
-    if (!open_run(run.get(), error)) return false;
-    runs->push_back(std::move(run));
+    config.stage = stage;
+    size_t bytes = 0;
+    if (bsm_memory_required(&config, &bytes) == BSM_ERROR_STAGE) continue;
+    runs->push_back(std::make_unique<StageRun>());
+    if (!runs->back()->frames.open(config, error)) return false;
   }
   return true;
 }
 
 bool measure(const host::Image8& left, const host::Image8& right, int32_t repeat, const Runs& runs, std::string* error) {
-  const bsm_config& config = runs.back()->config;
-  std::vector<int16_t> disparity(static_cast<size_t>(config.width) * static_cast<size_t>(config.height));
-  host::ThreadPool threads(config.max_jobs);
-  bsm_frame frame{};
-  frame.left = view_of(left);
-  frame.right = view_of(right);
-  frame.disparity = bsm_map{disparity.data(), ptrdiff_t{config.width} * 2};
-  if (config.max_jobs > 1) {
-    frame.parallel_for = host::ThreadPool::parallel_for;
-    frame.parallel_user = &threads;
-  }
   for (int32_t i = -1; i < repeat; ++i) {  // the round before the first touches the memory and is not kept
     for (const std::unique_ptr<StageRun>& run : runs) {
-      const auto begin = std::chrono::steady_clock::now();
-      const bsm_status status = bsm_process(run->context, &frame);
-      const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
-      if (status < 0) {
-        *error = bsm_status_string(status);
-        return false;
-      }
-      if (i >= 0) run->milliseconds.push_back(elapsed.count());
+      double milliseconds = 0.0;
+      if (!run->frames.match(left, right, &milliseconds, error)) return false;
+      if (i >= 0) run->milliseconds.push_back(milliseconds);
     }
   }
   return true;
@@ -112,7 +63,7 @@ double mde(const bsm_config& config, double milliseconds) {
 }
 
 std::string name_of(const StageRun& run) {
-  return host::stage_name(run.config.stage);
+  return host::stage_name(run.config().stage);
 }
 
 // Median of the rounds' differences: both runs of a round meet the same machine.
@@ -136,20 +87,20 @@ void print_csv(const FrameBench& bench, const Runs& runs) {
                    "disparities", "preset", "method",    "bits",     "paths",     "threads", "arena_bytes", "kernels"};
   for (size_t i = 0; i < runs.size(); ++i) {
     const StageRun& run = *runs[i];
-    const bsm_config& c = run.config;
+    const bsm_config& c = run.config();
     const double ms = median(run.milliseconds);
     table.add({name_of(run), fixed(run.fastest(), 3), fixed(ms, 3), fixed(i == 0 ? ms : difference(run, *runs[i - 1]), 3),
                fixed(mde(c, ms), 1), std::to_string(c.width), std::to_string(c.height), std::to_string(c.min_disparity),
                std::to_string(c.num_disparities), bench.config.preset(), host::method_name(c.method), std::to_string(c.bits),
                c.method == BSM_METHOD_SGM ? std::to_string(c.paths) : "", std::to_string(c.max_jobs),
-               std::to_string(run.bytes), joined(host::kernel_names(run.context))});
+               std::to_string(run.frames.arena_bytes()), joined(host::kernel_names(run.frames.context()))});
   }
   std::fputs(to_csv(table).c_str(), stdout);
 }
 
 void print_text(const FrameBench& bench, const Runs& runs) {
   const StageRun& whole = *runs.back();
-  const bsm_config& c = whole.config;
+  const bsm_config& c = whole.config();
   const double ms = median(whole.milliseconds);
   std::printf("%d x %d pixels, %s, disparities %d..%d; preset %s: %s, %d bits%s\n", static_cast<int>(c.width),
               static_cast<int>(c.height), host::format_name(c.format), static_cast<int>(c.min_disparity),
@@ -157,8 +108,8 @@ void print_text(const FrameBench& bench, const Runs& runs) {
               static_cast<int>(c.bits),
               c.method == BSM_METHOD_SGM ? text(", %d paths", static_cast<int>(c.paths)).c_str() : "");
   std::printf("%d thread%s, arena %.0f KB, --isa %s; kernels:\n", static_cast<int>(c.max_jobs), c.max_jobs == 1 ? "" : "s",
-              static_cast<double>(whole.bytes) / 1024.0, bench.config.isa.c_str());
-  for (const std::string& name : host::kernel_names(whole.context)) std::printf("  %s\n", name.c_str());
+              static_cast<double>(whole.frames.arena_bytes()) / 1024.0, bench.config.isa.c_str());
+  for (const std::string& name : host::kernel_names(whole.frames.context())) std::printf("  %s\n", name.c_str());
   std::printf("\nframe: %.2f ms (median of %d, least %.2f), %.0f MDE/s\n\n", ms, static_cast<int>(bench.repeat),
               whole.fastest(), mde(c, ms));
   std::printf(
@@ -184,10 +135,7 @@ void print_text(const FrameBench& bench, const Runs& runs) {
 
 bool run_frame_bench(FrameBench* bench, std::string* error) {
   host::Image8 left, right;
-  if (!read_view(bench->left, &left, error) || !read_view(bench->right, &right, error) ||
-      !host::prepare_pair(&left, bench->left, &right, bench->right, error)) {
-    return false;
-  }
+  if (!read_views(bench->left, bench->right, &left, &right, error)) return false;
   bench->config.set_format(left.channels == 3 ? BSM_FORMAT_RGB24 : BSM_FORMAT_GRAY8);
   bsm_config config = bench->config.config;
   config.width = left.width;

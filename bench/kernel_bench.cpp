@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "bench/kernel_inputs.h"
+#include "bench/statistics.h"
 #include "bench/table.h"
 #include "host/text.h"
 #include "platform/compiler.h"
@@ -133,12 +134,6 @@ double bound_of(const std::string& isa) {
     if (isa == bound.isa) return bound.bits_per_cycle;
   }
   return 0.0;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
 // One kernel and its samples.

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/experiments/configurations.h"
+#include "bench/configurations.h"
 #include "bench/experiments/progress.h"
 #include "bench/match_pair.h"
 #include "bench/pair_set.h"

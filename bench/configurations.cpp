@@ -1,5 +1,5 @@
 // Makes configurations.
-#include "bench/experiments/configurations.h"
+#include "bench/configurations.h"
 
 #include "host/text.h"
 

@@ -1,6 +1,6 @@
-// The configurations that the experiments compare.
-#ifndef BSM_BENCH_EXPERIMENTS_CONFIGURATIONS_H
-#define BSM_BENCH_EXPERIMENTS_CONFIGURATIONS_H
+// The configurations that the programs compare.
+#ifndef BSM_BENCH_CONFIGURATIONS_H
+#define BSM_BENCH_CONFIGURATIONS_H
 
 #include <cstdint>
 #include <string>
@@ -37,4 +37,4 @@ bool ask_for_confidence(bsm_config* config);
 
 }  // namespace bsm::bench
 
-#endif  // BSM_BENCH_EXPERIMENTS_CONFIGURATIONS_H
+#endif  // BSM_BENCH_CONFIGURATIONS_H
