@@ -8,8 +8,9 @@ namespace {
 
 // The options speak of "bsm COMMAND"; these programs stand alone.
 std::string own_name(std::string message) {
-  const std::string prefix = "bsm bsm_";
-  for (size_t at = message.find(prefix); at != std::string::npos; at = message.find(prefix, at)) message.erase(at, 4);
+  for (const std::string prefix : {"bsm bsm_", "bsm compare_"}) {
+    for (size_t at = message.find(prefix); at != std::string::npos; at = message.find(prefix, at)) message.erase(at, 4);
+  }
   return message;
 }
 

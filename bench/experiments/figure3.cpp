@@ -5,7 +5,7 @@
 
 #include "bench/experiments/experiments.h"
 #include "bench/experiments/radiometry.h"
-#include "bench/experiments/sgbm.h"
+#include "bench/opencv_matcher.h"
 #include "bench/report/svg_plot.h"
 #include "host/text.h"
 
@@ -26,7 +26,7 @@ std::vector<Matcher> matchers(const Study& study) {
   const bsm_config balanced = preset_configuration(BSM_PRESET_BALANCED).config;
   std::vector<Matcher> list = {{local_configuration(bits).name, false, local_configuration(bits).config},
                                {describe(balanced), false, balanced}};
-  if (sgbm_available()) list.push_back({"StereoSGBM", true, {}});
+  if (opencv_available()) list.push_back({"StereoSGBM", true, {}});
   return list;
 }
 
@@ -79,7 +79,9 @@ host::Mask without_clipped(const Pair& pair, host::Mask mask) {
 host::DisparityMap run_matcher(Study& study, const Pair& pair, const Matcher& matcher) {
   if (!matcher.opencv) return study.match_once(pair, matcher.config).map;
   study.progress().step("figure3: " + pair.name + ", StereoSGBM");
-  return sgbm_match(pair);
+  OpencvMatcher opencv(pair, OpencvMethod::kSgbm3Way);
+  opencv.match();
+  return opencv.map();
 }
 
 // Errors of all combinations, averaged over the scenes, for each matcher.
@@ -177,7 +179,7 @@ void run(Study& study) {
       "fall from 1.5 at the left edge to 0.5 at the right, or have a bright spot of 2 off centre over 0.6; clipping, 8 "
       "bits. "
       "Each view has its own condition.";
-  words += sgbm_available() ? " " + sgbm_name() + ": 3-way, 3 x 3 blocks, holes filled."
+  words += opencv_available() ? " " + opencv_name() + " StereoSGBM: 3-way, 3 x 3 blocks, holes filled."
                             : " StereoSGBM is absent: OpenCV was not found when this was built.";
   study.report().section("figure3", "Figure 3: radiometric differences", words);
   study.report().note(

@@ -128,7 +128,7 @@ std::string draw_lines(const LinePlot& plot) {
   const std::vector<double> y_ticks =
       plot.log_y ? power_ticks(y_values.low, y_values.high) : round_ticks(y_values.low, y_values.high, 6);
   if (!plot.log_x && x_values.low < kNearZero * x_values.high) x_values.low = 0.0;
-  std::vector<double> x_ticks = plot.series.front().x;
+  std::vector<double> x_ticks = plot.x_ticks.empty() ? plot.series.front().x : plot.x_ticks;
   if (!plot.log_x) x_ticks = round_ticks(x_values.low, x_values.high, 8);
   const Scale x{x_values.low, x_values.high, kLeft + 14.0, right - 14.0, plot.log_x};
   const Scale y{y_ticks.front(), y_ticks.back(), top + kPlotHeight, top, plot.log_y};

@@ -22,11 +22,12 @@ struct Reference {
 
 struct LinePlot {
   std::string title, x_label, y_label;
-  bool log_x = false;  // base 2, a tick at each x of the first series
+  bool log_x = false;  // ticks at x_ticks, or at each x of the first series where there are none
   bool log_y = false;  // base 10
   bool from_zero = false;
   std::vector<Series> series = {};
   std::vector<Reference> references = {};
+  std::vector<double> x_ticks = {};  // of a logarithmic axis; those outside the data are left out
 };
 std::string draw_lines(const LinePlot& plot);
 
