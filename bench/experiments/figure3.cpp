@@ -180,7 +180,7 @@ void run(Study& study) {
       "bits. "
       "Each view has its own condition.";
   words += opencv_available() ? " " + opencv_name() + " StereoSGBM: 3-way, 3 x 3 blocks, holes filled."
-                            : " StereoSGBM is absent: OpenCV was not found when this was built.";
+                              : " StereoSGBM is absent: OpenCV was not found when this was built.";
   study.report().section("figure3", "Figure 3: radiometric differences", words);
   study.report().note(
       "What limits: a view that clips, or whose signal sinks into the noise, has lost what could be compared, and no "
