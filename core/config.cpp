@@ -90,6 +90,7 @@ extern "C" bsm_status bsm_config_preset(bsm_config* config, bsm_preset preset) {
   const bool paper = preset == BSM_PRESET_PAPER;
   const bool best = preset == BSM_PRESET_BEST;
   const bool gray = !paper && config->format == BSM_FORMAT_GRAY8;  // luma alone tells less: its differences weigh more
+  const bool few_gray = gray && preset == BSM_PRESET_FAST;         // the least to go by: surfaces may change more freely
   config->method = paper ? BSM_METHOD_LOCAL : BSM_METHOD_SGM;
   switch (preset) {
     case BSM_PRESET_FAST:
@@ -106,8 +107,8 @@ extern "C" bsm_status bsm_config_preset(bsm_config* config, bsm_preset preset) {
   }
   config->paths = best ? 8 : 4;
   config->p1 = best ? 60 : 160;  // more paths add up to more smoothness
-  config->p2 = best ? 600 : 1000;
-  config->edge_threshold = gray ? 12 : 24;
+  config->p2 = best || few_gray ? 600 : 1000;
+  config->edge_threshold = few_gray ? 15 : gray ? 12 : 24;
   config->edge_divisor = 6;
   config->right_costs = BSM_RIGHT_COSTS_OWN;
   config->subpixel = paper ? 0 : 1;
