@@ -118,38 +118,59 @@ struct Row {
     return vld1q_u16(middle);
   }
 
-  void cost_pixel(int32_t x, const uint8_t* mask) const {
+  // Of the eight others of a pixel's first vector, the first in memory.
+  int32_t first_other(int32_t x) const { return kLeft ? x - args.min_disparity - (kAtOnce - 1) : x + args.min_disparity; }
+
+  // Levels that are no candidate: those of the last vector from num_disparities on, and the whole vectors after it.
+  void end_pixel(uint16_t* cost, uint16_t* end) const {
+    vst1q_u16(cost - kAtOnce, vorrq_u16(vld1q_u16(cost - kAtOnce), beyond));
+    for (; cost < end; cost += kAtOnce) vst1q_u16(cost, vdupq_n_u16(kNoCost));
+  }
+
+  // A pixel whose vectors' others lie in the row, all of them.
+  inline void cost_inside(int32_t x, const uint8_t* mask) const {
+    constexpr int32_t kAdvance = kLeft ? -kAtOnce : kAtOnce;
+    const uint8_t* own = args.own + x * bytes;
+    const uint8_t* other = args.other + first_other(x) * bytes;
+    uint16_t* cost = args.cost + ptrdiff_t{x} * args.stride;
+    uint16_t* const end = cost + args.stride;
+    const uint16_t* const last = cost + args.num_disparities;
+    if constexpr (kBytes != 0) {  // the pixel's own bits stay in registers
+      const Own<kBytes / 16> bits = load_own<kBytes / 16>(own, mask);
+      if (kLeft) other += (kAtOnce - 1) * kBytes;
+      for (; cost < last; cost += kAtOnce, other += kAdvance * kBytes) {
+        vst1q_u16(cost, count<kBytes / 16>(bits, other, kLeft ? -kBytes : kBytes));
+      }
+    } else {
+      for (; cost < last; cost += kAtOnce, other += kAdvance * bytes) vst1q_u16(cost, eight_costs(own, mask, other));
+    }
+    end_pixel(cost, end);
+  }
+
+  // Any pixel.
+  BSM_NOINLINE void cost_pixel(int32_t x, const uint8_t* mask) const {
     constexpr int32_t kAdvance = kLeft ? -kAtOnce : kAtOnce;
     const uint8_t* own = args.own + x * bytes;
     uint16_t* cost = args.cost + ptrdiff_t{x} * args.stride;
-    uint16_t* const end = cost + args.num_disparities;
-    // Of the eight others of a vector, the first in memory.
-    int32_t first = kLeft ? x - args.min_disparity - (kAtOnce - 1) : x + args.min_disparity;
-    const int32_t last = args.width - kAtOnce;
-    const auto inside = [&first, last]() { return first >= 0 && first <= last; };
-    for (; cost < end && !inside(); cost += kAtOnce, first += kAdvance) vst1q_u16(cost, partial_costs(own, mask, first));
-    if (cost < end) {
-      const int32_t wanted = static_cast<int32_t>(end - cost + kAtOnce - 1) / kAtOnce;
-      const int32_t possible = (kLeft ? first : last - first) / kAtOnce + 1;
-      const int32_t whole = wanted < possible ? wanted : possible;
-      const uint8_t* other = args.other + first * bytes;
-      if constexpr (kBytes != 0) {  // the pixel's own bits stay in registers
-        const Own<kBytes / 16> bits = load_own<kBytes / 16>(own, mask);
-        if (kLeft) other += (kAtOnce - 1) * kBytes;
-        for (int32_t i = 0; i < whole; ++i, cost += kAtOnce, other += kAdvance * kBytes) {
-          vst1q_u16(cost, count<kBytes / 16>(bits, other, kLeft ? -kBytes : kBytes));
-        }
-      } else {
-        for (int32_t i = 0; i < whole; ++i, cost += kAtOnce, other += kAdvance * bytes) {
-          vst1q_u16(cost, eight_costs(own, mask, other));
-        }
-      }
-      first += kAdvance * whole;
+    uint16_t* const end = cost + args.stride;
+    const uint16_t* const last = cost + args.num_disparities;
+    for (int32_t first = first_other(x); cost < last; cost += kAtOnce, first += kAdvance) {
+      const bool inside = first >= 0 && first <= args.width - kAtOnce;
+      vst1q_u16(cost, inside ? eight_costs(own, mask, args.other + first * bytes) : partial_costs(own, mask, first));
     }
-    for (; cost < end; cost += kAtOnce, first += kAdvance) vst1q_u16(cost, partial_costs(own, mask, first));
-    vst1q_u16(cost - kAtOnce, vorrq_u16(vld1q_u16(cost - kAtOnce), beyond));
-    uint16_t* const all = args.cost + ptrdiff_t{x + 1} * args.stride;
-    for (; cost < all; cost += kAtOnce) vst1q_u16(cost, vdupq_n_u16(kNoCost));
+    end_pixel(cost, end);
+  }
+
+  // All pixels; masks lie mask_bytes apart.
+  void cost_pixels(const uint8_t* masks, ptrdiff_t mask_bytes) const {
+    // From the first pixel whose first vector and last vector lie inside to the last one.
+    const int32_t span = (args.num_disparities - 1) / kAtOnce * kAtOnce;
+    const int32_t begin = (kLeft ? span : 0) - first_other(0);
+    const int32_t end = args.width - kAtOnce - (kLeft ? 0 : span) - first_other(0) + 1;
+    int32_t x = 0;
+    for (; x < args.width && x < begin; ++x) cost_pixel(x, masks + x * mask_bytes);
+    for (; x < args.width && x < end; ++x) cost_inside(x, masks + x * mask_bytes);
+    for (; x < args.width; ++x) cost_pixel(x, masks + x * mask_bytes);
   }
 };
 
@@ -161,9 +182,9 @@ void cost_row(const CostHammingArgs& args) {
   if (args.own_mask == nullptr) {
     uint8_t* all = static_cast<uint8_t*>(args.scratch);
     BSM_MEMSET(all, 0xff, static_cast<size_t>(row.bytes));
-    for (int32_t x = 0; x < args.width; ++x) row.cost_pixel(x, all);
+    row.cost_pixels(all, 0);
   } else {
-    for (int32_t x = 0; x < args.width; ++x) row.cost_pixel(x, args.own_mask + x * row.bytes);
+    row.cost_pixels(args.own_mask, row.bytes);
   }
 }
 
