@@ -31,8 +31,10 @@ inline void number_points(const Pattern& pattern, PatternPoints& out) {
   BSM_MEMSET(out.number, 0, sizeof out.number);
   for (int32_t i = 0; i < pattern.bits; ++i) {
     const PixelPair& pair = pattern.pairs[i];
-    out.number[window_index(pair.px, pair.py, radius)] = 1;
-    out.number[window_index(pair.qx, pair.qy, radius)] = 1;
+    const uint32_t p = static_cast<uint32_t>(window_index(pair.px, pair.py, radius));
+    const uint32_t q = static_cast<uint32_t>(window_index(pair.qx, pair.qy, radius));
+    out.number[p] = out.number[q] = 1;
+    out.pairs[i] = p | q << 16;
   }
   out.count = 0;
   for (int32_t i = 0; i < side * side; ++i) {
@@ -42,9 +44,8 @@ inline void number_points(const Pattern& pattern, PatternPoints& out) {
         PatternPoints::Point{static_cast<int8_t>(i % side - radius), static_cast<int8_t>(i / side - radius)};
   }
   for (int32_t i = 0; i < pattern.bits; ++i) {
-    const PixelPair& pair = pattern.pairs[i];
-    const uint32_t p = out.number[window_index(pair.px, pair.py, radius)];
-    const uint32_t q = out.number[window_index(pair.qx, pair.qy, radius)];
+    const uint32_t p = out.number[out.pairs[i] & 0xffff];
+    const uint32_t q = out.number[out.pairs[i] >> 16];
     out.pairs[i] = p | q << 16;
   }
 }

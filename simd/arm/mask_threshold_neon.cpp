@@ -16,7 +16,6 @@ constexpr int32_t kPairsAtOnce = 64;  // that a lane of bytes counts
 constexpr int32_t kLong = 640;        // descriptors of so many bits and more are long
 constexpr int32_t kTile = 128;        // pixels at once for them
 constexpr int32_t kGroups = kTile / kLanes;
-alignas(16) constexpr uint8_t kPixelBits[kLanes] = {1, 2, 4, 8, 16, 32, 64, 128, 1, 2, 4, 8, 16, 32, 64, 128};
 constexpr int32_t kHighLevels = 7;  // bits of a count from 64 on
 
 struct ShortScratch {
@@ -26,8 +25,8 @@ struct ShortScratch {
 
 struct LongScratch {
   uint8_t sad[kMaxPoints][kTile];
-  uint8_t within[kMaxPoints][kLanes];  // a bit for each pixel
-  uint8_t octets[8][8][kLanes];        // by byte of 64 pairs, then by pixel of eight
+  uint8_t within[kMaxPoints][kLanes];  // a bit for each pixel: bit g of byte i for pixel i of group g
+  uint8_t octets[8][kGroups][kLanes];  // by byte of 64 pairs, then by group
   uint8_t high[kHighLevels][kLanes];
 };
 
@@ -183,17 +182,14 @@ void store_beyond(const MaskThresholdArgs& args, int32_t x, int32_t pixels, uint
 
 // A bit for each of 128 pixels, for all points: the SAD is within the pixel's threshold.
 void find_within(Scratch& scratch, const uint8x16_t (&threshold)[kGroups]) {
-  const uint8x16_t bits = vld1q_u8(kPixelBits);
   const uint8_t* sad = scratch.many.sad[0];
   uint8_t* within = scratch.many.within[0];
   const int32_t count = scratch.points.count;
   for (int32_t i = 0; i < count; ++i, sad += kTile, within += kLanes) {
     uint8x16_t group[kGroups];
     BSM_UNROLL
-    for (int32_t g = 0; g < kGroups; ++g) group[g] = vandq_u8(vcleq_u8(vld1q_u8(sad + g * kLanes), threshold[g]), bits);
-    const uint8x16_t low = add_pairs8(add_pairs8(group[0], group[1]), add_pairs8(group[2], group[3]));
-    const uint8x16_t high = add_pairs8(add_pairs8(group[4], group[5]), add_pairs8(group[6], group[7]));
-    vst1q_u8(within, add_pairs8(low, high));
+    for (int32_t g = 0; g < kGroups; ++g) group[g] = vcleq_u8(vld1q_u8(sad + g * kLanes), threshold[g]);
+    vst1q_u8(within, gather_bits(group));
   }
 }
 
@@ -260,12 +256,8 @@ bool all_enough(Scratch& scratch, int32_t bits, int32_t groups, uint8_t tested) 
   uint8x16_t threshold[kGroups];
   for (uint8x16_t& t : threshold) t = vdupq_n_u8(tested);
   find_within(scratch, threshold);
-  uint8_t passed[kLanes];
-  vst1q_u8(passed, enough(scratch, bits));
-  for (int32_t i = 0; i < 2 * groups; ++i) {
-    if (passed[i] != 255) return false;
-  }
-  return true;
+  const uint8x16_t others = vdupq_n_u8(static_cast<uint8_t>(0xff << groups));
+  return least8(vorrq_u8(enough(scratch, bits), others)) == 255;
 }
 
 // T of 128 pixels, as find_threshold. Groups from `groups` on do not count.
@@ -278,11 +270,9 @@ void find_thresholds(Scratch& scratch, int32_t bits, int32_t groups, int32_t* to
     uint8x16_t tested[kGroups];
     for (int32_t g = 0; g < kGroups; ++g) tested[g] = vaddq_u8(threshold[g], below);
     find_within(scratch, tested);
-    uint8_t passed[kLanes];
-    vst1q_u8(passed, enough(scratch, bits));
+    const uint8x16_t passed = enough(scratch, bits);
     for (int32_t g = 0; g < kGroups; ++g) {
-      const uint8x16_t pixels = vcombine_u8(vdup_n_u8(passed[2 * g]), vdup_n_u8(passed[2 * g + 1]));
-      const uint8x16_t is_enough = vtstq_u8(pixels, vld1q_u8(kPixelBits));
+      const uint8x16_t is_enough = vtstq_u8(passed, vdupq_n_u8(static_cast<uint8_t>(1 << g)));
       threshold[g] = vaddq_u8(threshold[g], vbicq_u8(vdupq_n_u8(static_cast<uint8_t>(step)), is_enough));
     }
   }
@@ -327,13 +317,13 @@ void store_tile(Scratch& scratch, int32_t bits, int32_t pixels, uint8_t* out) {
       for (int32_t i = 0; i < 8; ++i) words[i] = pair_within(within, scratch.pairs[first + 8 * byte + i]);
       transpose_bits(words);
       BSM_UNROLL
-      for (int32_t i = 0; i < 8; ++i) vst1q_u8(scratch.many.octets[byte][i], words[i]);
+      for (int32_t g = 0; g < kGroups; ++g) vst1q_u8(scratch.many.octets[byte][g], words[g]);
     }
-    for (int32_t i = 0; i < 8 && i < pixels; ++i) {  // pixels i, i + 8, ..
+    for (int32_t x = 0; x < pixels; x += kLanes) {
       uint8x16_t octets[8];
       BSM_UNROLL
-      for (int32_t byte = 0; byte < 8; ++byte) octets[byte] = vld1q_u8(scratch.many.octets[byte][i]);
-      store_octets(octets, (pixels - i + 7) / 8, out + i * bytes + first / 8, 8 * bytes);
+      for (int32_t byte = 0; byte < 8; ++byte) octets[byte] = vld1q_u8(scratch.many.octets[byte][x / kLanes]);
+      store_octets(octets, pixels - x, out + x * bytes + first / 8, bytes);
     }
   }
 }

@@ -74,16 +74,18 @@ template <bool kMasked>
 inline uint16x8_t count_chunk(const View& own, const View& other, ptrdiff_t bytes, ptrdiff_t at) {
   constexpr int32_t kVectors = kChunk / 16;
   uint8x16_t descriptor[kVectors], mask[kVectors];
+  const uint8_t* own_descriptor = one_address(own.descriptors + at);
+  const uint8_t* own_mask = kMasked ? one_address(own.masks + at) : own_descriptor;
   BSM_UNROLL
   for (int32_t v = 0; v < kVectors; ++v) {
-    descriptor[v] = vld1q_u8(own.descriptors + at + 16 * v);
-    mask[v] = kMasked ? vld1q_u8(own.masks + at + 16 * v) : descriptor[v];
+    descriptor[v] = vld1q_u8(own_descriptor + 16 * v);
+    mask[v] = kMasked ? vld1q_u8(own_mask + 16 * v) : descriptor[v];
   }
   Counts counts;
-  const uint8_t* descriptors = other.descriptors + at;
-  const uint8_t* masks = kMasked ? other.masks + at : descriptors;
   BSM_UNROLL
-  for (int32_t i = 0; i < kGroup; ++i, descriptors += bytes, masks += bytes) {
+  for (int32_t i = 0; i < kGroup; ++i) {
+    const uint8_t* descriptors = one_address(other.descriptors + i * bytes + at);
+    const uint8_t* masks = kMasked ? one_address(other.masks + i * bytes + at) : descriptors;
     BSM_UNROLL
     for (int32_t v = 0; v < kVectors; ++v) {
       const uint8x16_t differing = veorq_u8(descriptor[v], vld1q_u8(descriptors + 16 * v));
@@ -119,8 +121,9 @@ inline Keys make_keys(uint16x8_t sums, uint32x4_t levels) {
               vorrq_u32(vshll_n_u16(vget_high_u16(sums), kLevelBits), levels)};
 }
 
-inline bool all_reach(const Keys& keys, uint32x4_t left, uint32x4_t right) {
-  return least32(vandq_u32(vcgeq_u32(keys.left, left), vcgeq_u32(keys.right, right))) != 0;
+// Costs above which no candidate wins, in the lanes of add_up: those of the winners so far; a key may win at its own cost.
+inline uint16x8_t limits_of(uint32x4_t left, uint32x4_t right) {
+  return vcombine_u16(vshrn_n_u32(left, kLevelBits), vshrn_n_u32(right, kLevelBits));
 }
 
 inline uint16_t level_of(uint32_t key) {
@@ -146,15 +149,15 @@ struct Row {
     const uint32x4_t levels = vaddq_u32(vdupq_n_u32(static_cast<uint32_t>(level)), vld1q_u32(kDown));
     const uint32x4_t right = vld1q_u32(right_best + first);
     const uint32x4_t left = vdupq_n_u32(least32(best));
+    const uint16x8_t limits = limits_of(left, right);
     uint16x8_t sums = vdupq_n_u16(0);
-    Keys keys;
     ptrdiff_t at = 0;
     do {
       const ptrdiff_t next = end - at < kChunk ? end : at + kChunk;
       sums = vaddq_u16(sums, count<kMasked>(own, other, bytes, at, next));
-      keys = make_keys(sums, levels);
       at = next;
-    } while (at < end && !all_reach(keys, left, right));
+    } while (at < end && least16(vcgtq_u16(sums, limits)) == 0);
+    const Keys keys = make_keys(sums, levels);
     best = vminq_u32(best, keys.left);
     vst1q_u32(right_best + first, vminq_u32(right, keys.right));
   }

@@ -11,6 +11,13 @@
 namespace bsm {
 namespace {
 
+// An address as it stands: loads at constant distances from it share it, two of them in one instruction.
+template <class T>
+inline const T* one_address(const T* address) {
+  __asm__("" : "+r"(address));
+  return address;
+}
+
 // Sums of neighbouring lanes: those of a in the lower half of the result, those of b in the upper one.
 inline uint8x16_t add_pairs8(uint8x16_t a, uint8x16_t b) {
 #if defined(__aarch64__)
