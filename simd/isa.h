@@ -14,6 +14,8 @@ constexpr uint32_t kIsaSse42 = kCpuPopcnt | kCpuSse42;
 constexpr uint32_t kIsaAvx2 = kIsaSse42 | kCpuAvx2;
 constexpr uint32_t kIsaAvx512 = kIsaAvx2 | kCpuAvx512 | kCpuAvx512Vbmi | kCpuAvx512Gfni | kCpuAvx512Vpopcntdq;
 constexpr uint32_t kIsaNeon = kCpuNeon;
+constexpr uint32_t kIsaDsp = kCpuArmDsp;
+constexpr uint32_t kIsaMve = kCpuArmDsp | kCpuMve;
 
 }  // namespace bsm
 
