@@ -2,6 +2,7 @@
 #include "core/config.h"
 
 #include "platform/compiler.h"
+#include "simd/build.h"
 
 namespace bsm {
 namespace {
@@ -36,13 +37,17 @@ bsm_status validate_config(const bsm_config* config) {
   if (!within(config->height, 1, BSM_MAX_SIZE)) return BSM_ERROR_HEIGHT;
   if (!within(config->min_disparity, BSM_MIN_DISPARITY, BSM_MAX_DISPARITY)) return BSM_ERROR_MIN_DISPARITY;
   if (!within(config->num_disparities, 1, BSM_MAX_DISPARITY - config->min_disparity + 1)) return BSM_ERROR_NUM_DISPARITIES;
-  if (!within(config->method, BSM_METHOD_LOCAL, BSM_METHOD_SGM)) return BSM_ERROR_METHOD;
+  if (!within(config->method, kHasLocal ? BSM_METHOD_LOCAL : BSM_METHOD_SGM, kHasSgm ? BSM_METHOD_SGM : BSM_METHOD_LOCAL)) {
+    return BSM_ERROR_METHOD;
+  }
   const bool sgm = config->method == BSM_METHOD_SGM;
-  const int32_t most_bits = sgm ? BSM_MAX_SGM_BITS : BSM_MAX_BITS;
+  const int32_t most_bits = sgm ? kMostSgmBits : kMostLocalBits;
   if (!within(config->bits, BSM_MIN_BITS, most_bits) || config->bits % BSM_MIN_BITS != 0) return BSM_ERROR_BITS;
-  if (!within(config->stage, BSM_STAGE_COST, BSM_STAGE_REFINED)) return BSM_ERROR_STAGE;
+  // The stages before the aggregation are the local method's.
+  if (!within(config->stage, kHasLocal ? BSM_STAGE_COST : BSM_STAGE_AGGREGATED, BSM_STAGE_REFINED)) return BSM_ERROR_STAGE;
   if (config->stage == BSM_STAGE_AGGREGATED && !sgm) return BSM_ERROR_STAGE;
   if (!within(config->format, BSM_FORMAT_GRAY8, BSM_FORMAT_RGB565)) return BSM_ERROR_FORMAT;
+  if (!kHasColor && config->format != BSM_FORMAT_GRAY8) return BSM_ERROR_FORMAT;
   if (!within(config->paths, 3, 5) && config->paths != 8) return BSM_ERROR_PATHS;
   if (!within(config->p1, 1, 16384) || !within(config->p2, config->p1, 16384)) return BSM_ERROR_PENALTY;
   if (!within(config->edge_threshold, 1, 255) || !within(config->edge_divisor, 1, 64)) return BSM_ERROR_EDGE;

@@ -6,6 +6,7 @@
 
 #include "bsm/bsm.h"
 #include "core/plan.h"
+#include "simd/build.h"
 #include "simd/kernels.h"
 
 struct bsm_context {
@@ -52,7 +53,11 @@ inline int32_t views_kept(const bsm_context& context) {
 }
 
 inline bool uses_sgm(const bsm_context& context) {
-  return context.plan.sum.rows != 0;
+  return kHasSgm && (!kHasLocal || context.plan.sum.rows != 0);
+}
+
+inline bool uses_fractions(const bsm_context& context) {
+  return kHasSgm && context.plan.fraction_radius != 0;
 }
 
 }  // namespace bsm

@@ -118,7 +118,7 @@ void advance_refinement(const bsm_context& context, int32_t from, int32_t to, co
     each_view(lagging(context, from, to, lag),
               [&](View view, int32_t y, uint8_t* job) { smooth_row(context, view, pass, y, job); });
   }
-  if (plan.fraction_radius != 0) {
+  if (uses_fractions(context)) {
     lag += plan.median_radius;
     each_view(lagging(context, from, to, lag), [&](View view, int32_t y, uint8_t*) { restore_row(context, view, y); });
     lag += plan.fraction_radius;

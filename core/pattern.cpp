@@ -2,6 +2,7 @@
 #include "core/pattern.h"
 
 #include "bsm/bsm.h"
+#include "simd/build.h"
 
 #ifndef BSM_PATTERN_SEED
 #define BSM_PATTERN_SEED 1
@@ -61,8 +62,8 @@ constexpr PairTable<kPairs> make_pair_table(const uint32_t* distribution, uint32
   return table;
 }
 
-constexpr auto kLocalPairs = make_pair_table<BSM_MAX_BITS>(kSigma4, BSM_PATTERN_SEED);
-constexpr auto kSgmPairs = make_pair_table<BSM_MAX_SGM_BITS>(kSigma2_5, BSM_PATTERN_SEED);
+constexpr auto kLocalPairs = make_pair_table<kMostLocalBits>(kSigma4, BSM_PATTERN_SEED);
+constexpr auto kSgmPairs = make_pair_table<kMostSgmBits>(kSigma2_5, BSM_PATTERN_SEED);
 
 }  // namespace
 

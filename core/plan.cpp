@@ -6,6 +6,7 @@
 #include "core/pattern.h"
 #include "core/speckle.h"
 #include "platform/compiler.h"
+#include "simd/build.h"
 
 namespace bsm {
 namespace {
@@ -39,7 +40,7 @@ int32_t largest(int32_t a, int32_t b) {
 }
 
 bool is_sgm(const bsm_config& config) {
-  return config.method == BSM_METHOD_SGM && config.stage >= BSM_STAGE_AGGREGATED;
+  return kHasSgm && config.method == BSM_METHOD_SGM && config.stage >= BSM_STAGE_AGGREGATED;
 }
 
 // Stages that run, their radii and the delay they add up to.
@@ -96,7 +97,8 @@ JobPlan plan_job(const bsm_config& config, const Kernels& kernels, const Plan& p
 }  // namespace
 
 Pattern pattern_of(const bsm_config& config) {
-  return config.method == BSM_METHOD_SGM ? sgm_pattern(config.bits) : local_pattern(config.bits);
+  const bool sgm = !kHasLocal || (kHasSgm && config.method == BSM_METHOD_SGM);
+  return sgm ? sgm_pattern(config.bits) : local_pattern(config.bits);
 }
 
 int32_t row_delay(const bsm_config& config) {

@@ -187,7 +187,7 @@ void write_row(const bsm_context& context, View view, int32_t y, int16_t* out, u
   const Plan& plan = context.plan;
   const int32_t width = context.config.width;
   uint16_t* levels = reinterpret_cast<uint16_t*>(out);  // the unsigned twin of the output type
-  if (plan.fraction_radius != 0) {
+  if (uses_fractions(context)) {
     smooth_fractions(context, view, plan.fraction_once[view], y, levels, job);
   } else if (context.config.stage == BSM_STAGE_REFINED) {
     take_dense_row(context, view, y, levels);

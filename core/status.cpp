@@ -33,13 +33,13 @@ extern "C" const char* bsm_status_string(bsm_status status) {
     case BSM_ERROR_NUM_DISPARITIES:
       return "the number of disparities is below 1, or the largest disparity above 2046";
     case BSM_ERROR_BITS:
-      return "the number of bits is not a multiple of 64 within 64..4096, or of sgm within 64..1024";
+      return "the number of bits is not a multiple of 64 within 64..4096 (sgm: 64..1024) or of what was built";
     case BSM_ERROR_METHOD:
-      return "the method is unknown";
+      return "the method is unknown or was not built";
     case BSM_ERROR_STAGE:
-      return "the stage is unknown or not one of the method's";
+      return "the stage is unknown, not one of the method's or was not built";
     case BSM_ERROR_FORMAT:
-      return "the pixel format is unknown";
+      return "the pixel format is unknown or was not built";
     case BSM_ERROR_PATHS:
       return "paths is not 3, 4, 5 or 8";
     case BSM_ERROR_PENALTY:

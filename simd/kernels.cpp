@@ -1,6 +1,8 @@
 // Selection: from CPU features to the table of kernels, by the list in simd/kernels.def.
 #include "simd/kernels.h"
 
+#include "simd/build.h"
+
 namespace bsm {
 namespace {
 
@@ -13,13 +15,30 @@ enum StageIndex : int32_t {
 };
 static_assert(int32_t{kStageCount} == int32_t{BSM_KERNEL_COUNT}, "bsm_kernel names every stage of simd/stages.def");
 
+// Stages of a method that the build leaves out have no kernels.
+constexpr bool is_built(StageIndex stage) {
+  switch (stage) {
+    case match_hamming_index:
+      return kHasLocal;
+    case cost_hamming_index:
+    case edge_threshold_index:
+    case aggregate_along_index:
+    case aggregate_across_index:
+    case winner_sums_index:
+    case fraction_smooth_index:
+      return kHasSgm;
+    default:
+      return true;
+  }
+}
+
 }  // namespace
 
 Kernels select_kernels(uint32_t features) {
   Kernels kernels{};
   int32_t blocks[kStageCount] = {};
 #define BSM_KERNEL(stage, operation, isa, required, stage_block)                          \
-  if (((required) & ~features) == 0) {                                                    \
+  if (is_built(stage##_##operation##_index) && ((required) & ~features) == 0) {           \
     kernels.stage##_##operation = stage##_##operation##_##isa;                            \
     kernels.name[stage##_##operation##_index] = #stage "_" #operation "_" #isa;           \
     kernels.scratch[stage##_##operation##_index] = stage##_##operation##_##isa##_scratch; \
@@ -39,7 +58,7 @@ Kernels select_kernels(uint32_t features) {
 uint64_t kernel_scratch_bytes(const Kernels& kernels, const KernelShape& shape) {
   uint64_t most = 0;
   for (kernel_scratch_fn* scratch : kernels.scratch) {
-    const uint64_t bytes = scratch(shape);
+    const uint64_t bytes = scratch == nullptr ? 0 : scratch(shape);
     most = most < bytes ? bytes : most;
   }
   return most;

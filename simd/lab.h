@@ -67,7 +67,7 @@ constexpr CubeRootTable make_cube_root_table() {
 constexpr CubeRootTable kCubeRoot = make_cube_root_table();
 
 // CIELAB's f(t) in 2^-20 for t in 2^-32: the cube root above (6/29)^3, else a line.
-static inline uint32_t lab_f(uint32_t t) {
+static constexpr uint32_t lab_f(uint32_t t) {
   if (t < 38037066u) {                            // (6/29)^3 2^32
     return (((t >> 6) * 3987u) >> 15) + 144631u;  // t 841/108 + 4/29
   }
@@ -84,7 +84,7 @@ static inline uint32_t lab_f(uint32_t t) {
 }
 
 // The luma plane of the stored colour, for a gray pixel: L' of R = G = B = value.
-static inline uint8_t lab_l_from_gray(uint8_t value) {
+static constexpr uint8_t lab_l_from_gray(uint8_t value) {
   const int32_t f = static_cast<int32_t>(lab_f(kLinearLight[value] << 15));
   return static_cast<uint8_t>((145 * f - (20 << 20) + (1 << 19)) >> 20);
 }

@@ -25,7 +25,7 @@ suites=native
 for option in "$@"; do
   case $option in
     --asan) suites=asan ;;
-    --all) suites="native tiers arm64 arm32 embedding clang asan fuzz" ;;
+    --all) suites="native tiers arm64 arm32 embedding options clang asan fuzz" ;;
     -h | --help)
       usage
       exit 0
@@ -143,6 +143,35 @@ links() {
   good=$?
   rm -rf "$dir"
   return $good
+}
+
+# expect NAME COMMAND...: one check of the suite that runs; its output is shown when it fails.
+expect() {
+  local name=$1 output
+  shift
+  if output=$("$@" 2>&1); then
+    echo "$suite: $name"
+    passed=$((passed + 1))
+  else
+    printf '%s\n' "$output"
+    failed+=("$suite $name")
+    return 1
+  fi
+}
+
+# The command fails, and says TEXT.
+refuses() {
+  local text=$1 output
+  shift
+  ! output=$("$@" 2>&1) && grep -qF -- "$text" <<< "$output"
+}
+
+# build SOURCE FOLDER TARGETS OPTION...: configures and builds some targets, "all" for all.
+build() {
+  local source=$1 folder=$2 targets=$3
+  shift 3
+  # shellcheck disable=SC2086  # targets are words of their own
+  cmake -S "$source" -B "$folder" "$@" && cmake --build "$folder" --parallel "$jobs" --target $targets
 }
 
 # emulate SUITE BUILD CPU ISA EMULATOR...: the tests of kernels and hashes on an emulated CPU, which has to choose the kernels of

@@ -233,13 +233,14 @@ int match_command(const std::vector<std::string>& argument_list) {
   }
   if (!check_arguments(options, &arguments)) return kExitUsage;
 
-  // A refused configuration is reported before the images are read, which may be a long pipe.
+  // A refused configuration is reported before the images are read, which may be a long pipe. They
+  // alone tell the format.
   bsm_config& config = arguments.config.config;
   config.right_map = arguments.right_output.empty() ? 0 : 1;
   config.confidence = arguments.confidence_output.empty() ? 0 : 1;
   size_t bytes = 0;
   bsm_status status = bsm_memory_required(&config, &bytes);
-  if (status < 0) {
+  if (status < 0 && status != BSM_ERROR_FORMAT) {
     usage_error(config_error(status));
     return kExitUsage;
   }

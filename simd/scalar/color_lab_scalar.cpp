@@ -1,5 +1,6 @@
 // color_lab, scalar: input pixels to luma and CIELAB, one pixel at a time.
 #include "bsm/bsm.h"
+#include "simd/build.h"
 #include "simd/kernels.h"
 #include "simd/lab.h"
 
@@ -42,11 +43,24 @@ void convert_color(const ColorLabArgs& args) {
   }
 }
 
+// L' of every gray: a build without colour needs no other part of CIELAB.
+struct GrayTable {
+  uint8_t l[256];
+};
+
+constexpr GrayTable make_gray_table() {
+  GrayTable table{};
+  for (uint32_t value = 0; value < 256; ++value) table.l[value] = lab_l_from_gray(static_cast<uint8_t>(value));
+  return table;
+}
+
+constexpr GrayTable kGray = make_gray_table();
+
 void convert_gray(const ColorLabArgs& args) {
   for (int32_t x = 0; x < args.width; ++x) {
     const uint8_t value = args.source[x];
     if (args.luma != nullptr) args.luma[x] = luma_from_rgb(value, value, value);
-    if (args.lab != nullptr) args.lab[x] = lab_l_from_gray(value);
+    if (args.lab != nullptr) args.lab[x] = kGray.l[value];
   }
 }
 
@@ -57,6 +71,7 @@ uint64_t color_lab_scalar_scratch(const KernelShape&) {
 }
 
 void color_lab_scalar(const ColorLabArgs& args) {
+  if (!kHasColor) return convert_gray(args);
   switch (args.format) {
     case BSM_FORMAT_GRAY8:
       return convert_gray(args);

@@ -1,28 +1,6 @@
 # shellcheck shell=bash disable=SC2154  # root, jobs and the counts are run.sh's
 # The library inside other projects: installed, as a subdirectory, and as packages.
 
-# expect NAME COMMAND...: one check; its output is shown when it fails.
-expect() {
-  local name=$1 output
-  shift
-  if output=$("$@" 2>&1); then
-    echo "embedding: $name"
-    passed=$((passed + 1))
-  else
-    printf '%s\n' "$output"
-    failed+=("embedding $name")
-    return 1
-  fi
-}
-
-# build SOURCE FOLDER TARGETS OPTION...: configures and builds some targets, "all" for all.
-build() {
-  local source=$1 folder=$2 targets=$3
-  shift 3
-  # shellcheck disable=SC2086  # targets are words of their own
-  cmake -S "$source" -B "$folder" "$@" && cmake --build "$folder" --parallel "$jobs" --target $targets
-}
-
 # An installed tree works after it was moved, from CMake and from pkg-config, and for the version that the header says alone.
 installed_tree() {
   local kind=$1 tree=$2 moved=$2-moved version=$3
@@ -37,13 +15,6 @@ installed_tree() {
   else
     skipped+=("embedding $kind, pkg-config: pkg-config is not installed and cannot be installed here")
   fi
-}
-
-# The command fails, and says TEXT.
-refuses() {
-  local text=$1 output
-  shift
-  ! output=$("$@" 2>&1) && grep -qF -- "$text" <<< "$output"
 }
 
 # A C compiler alone and what pkg-config says make a program that runs; no path leads out of the tree.

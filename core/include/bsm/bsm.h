@@ -65,10 +65,10 @@ typedef enum bsm_status {
   BSM_ERROR_HEIGHT = -6,           /* height is not within 1..BSM_MAX_SIZE */
   BSM_ERROR_MIN_DISPARITY = -7,    /* min_disparity is not within BSM_MIN_DISPARITY..BSM_MAX_DISPARITY */
   BSM_ERROR_NUM_DISPARITIES = -8,  /* num_disparities is below 1, or the largest disparity above BSM_MAX_DISPARITY */
-  BSM_ERROR_BITS = -9,             /* bits is not a multiple of 64 within 64..4096 (sgm: 64..1024) */
-  BSM_ERROR_METHOD = -10,          /* method is not a bsm_method */
-  BSM_ERROR_STAGE = -11,           /* stage is not a bsm_stage, or the method has no such stage */
-  BSM_ERROR_FORMAT = -12,          /* format is not a bsm_format */
+  BSM_ERROR_BITS = -9,             /* bits is not a multiple of 64 within 64..4096 (sgm: 64..1024) or of what was built */
+  BSM_ERROR_METHOD = -10,          /* method is not a bsm_method that was built */
+  BSM_ERROR_STAGE = -11,           /* stage is not a bsm_stage, or the method or this build has no such stage */
+  BSM_ERROR_FORMAT = -12,          /* format is not a bsm_format that was built */
   BSM_ERROR_PATHS = -13,           /* paths is not 3, 4, 5 or 8 */
   BSM_ERROR_PENALTY = -14,         /* a penalty is not within 1..16384, or p1 is above p2 */
   BSM_ERROR_EDGE = -15,            /* edge_threshold is not within 1..255, or edge_divisor not within 1..64 */
@@ -312,7 +312,8 @@ BSM_API const char* bsm_version(void);
 BSM_API uint32_t bsm_cpu_features(void);
 BSM_API const char* bsm_cpu_feature_name(int32_t bit);
 
-/* Name of the kernel that context runs for a stage, as "stage_operation_isa"; NULL for a bad argument. */
+/* Name of the kernel that context runs for a stage, as "stage_operation_isa"; NULL for a bad argument and for
+ * stages of a method that was not built. */
 BSM_API const char* bsm_kernel_name(const bsm_context* context, bsm_kernel kernel);
 
 #ifdef __cplusplus

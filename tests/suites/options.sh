@@ -1,0 +1,65 @@
+# shellcheck shell=bash disable=SC2154  # root, jobs and the counts are run.sh's
+# Libraries that CMake's options leave parts out of: what they hold gives the same maps, the rest is refused.
+
+# smaller NAME OPTION...: builds the program on a library with these CMake options.
+smaller() {
+  local name=$1
+  shift
+  expect "$name, build" build "$root" "$out/$name" bsm_program -DCMAKE_BUILD_TYPE=Release -DBSM_WERROR=ON \
+    -DBSM_BUILD_TESTS=OFF -DBSM_BUILD_BENCH=OFF "$@"
+}
+
+# same_map NAME MATCH_OPTION...: its program writes the map that the whole library's writes.
+same_map() {
+  local name=$1
+  shift
+  "$out/$name/platform/host/bsm" match "$out/left.pgm" "$out/right.pgm" -o "$out/smaller.pgm" --disparities 32 "$@" &&
+    "$whole" match "$out/left.pgm" "$out/right.pgm" -o "$out/whole.pgm" --disparities 32 "$@" &&
+    cmp "$out/smaller.pgm" "$out/whole.pgm"
+}
+
+# same NAME MATCH_OPTION... and refused NAME TEXT MATCH_OPTION...: one check each.
+same() { expect "$1, the same map: ${*:2}" same_map "$@"; }
+refused() {
+  local name=$1 text=$2
+  shift 2
+  expect "$name, refused: $*" refuses "$text" "$out/$name/platform/host/bsm" match "$out/left.ppm" "$out/right.ppm" \
+    -o "$out/refused.pgm" --disparities 32 "$@"
+}
+
+# A gray image from the green of a binary PPM with a header of three lines.
+green_of() {
+  { sed -n '1s/P6/P5/p; 2,3p; 3q' "$1" && tail -c "$((3 * 160 * 120))" "$1" | od -An -v -tu1 -w3 |
+    LC_ALL=C awk '{ printf "%c", $2 }'; } > "$2"
+}
+
+run_options() {
+  local out=$root/build/options whole=$root/build/tests/platform/host/bsm
+  mkdir -p "$out"
+  echo "== options: building in $out"
+  expect "whole library, build" build "$root" "$root/build/tests" bsm_program -DCMAKE_BUILD_TYPE=Release -DBSM_WERROR=ON &&
+    expect "scene" "$whole" demo "$out" --width 160 --height 120 --disparities 32 || return
+  expect "left view in gray" green_of "$out/left.ppm" "$out/left.pgm"
+  expect "right view in gray" green_of "$out/right.ppm" "$out/right.pgm"
+
+  if smaller sgm -DBSM_LOCAL=OFF -DBSM_COLOR=OFF -DBSM_MAX_BITS=256; then
+    same sgm --preset fast
+    same sgm --preset balanced --right-costs left
+    same sgm --preset fast --paths 8 --stage aggregated
+    same sgm --preset fast --isa scalar
+    refused sgm "the method is unknown or was not built" --preset paper --bits 256
+    refused sgm "the number of bits" --bits 320
+    refused sgm "the stage is unknown" --stage masked
+    refused sgm "the pixel format is unknown or was not built" --preset fast
+  fi
+  if smaller local -DBSM_SGM=OFF -DBSM_MAX_BITS=512; then
+    same local --preset paper --bits 512
+    same local --preset balanced --method local --bits 256
+    same local --preset paper --bits 64 --stage cost --isa scalar
+    refused local "the method is unknown or was not built" --preset fast
+    refused local "the number of bits" --preset paper --bits 1024
+  fi
+  expect "no method, refused" refuses "both off" cmake -S "$root" -B "$out/no-method" -DBSM_LOCAL=OFF -DBSM_SGM=OFF
+  expect "odd length, refused" refuses "multiple of 64" cmake -S "$root" -B "$out/odd-length" -DBSM_MAX_BITS=100
+  expect "tests of a part, refused" refuses "the whole library" cmake -S "$root" -B "$out/part-tests" -DBSM_SGM=OFF
+}
