@@ -6,6 +6,7 @@
 #include "bench/command_line.h"
 #include "bench/frame_bench.h"
 #include "bench/kernel_bench.h"
+#include "bench/worst_bench.h"
 #include "bsm/bsm.h"
 #include "host/config_options.h"
 #include "host/options.h"
@@ -16,11 +17,13 @@ namespace {
 constexpr char kProgram[] = "bsm_bench";
 constexpr char kKernels[] = "bsm_bench kernels";
 constexpr char kFrame[] = "bsm_bench frame";
+constexpr char kWorst[] = "bsm_bench worst";
 constexpr char kHelp[] =
     "usage: bsm_bench COMMAND [options]\n\n"
     "commands:\n"
     "  kernels [options]           time of each kernel that this machine can run\n"
-    "  frame LEFT RIGHT [options]  time of a whole frame and of its stages\n\n"
+    "  frame LEFT RIGHT [options]  time of a whole frame and of its stages\n"
+    "  worst LEFT RIGHT [options]  time of frames that have nothing to match, beside a pair's\n\n"
     "'bsm_bench COMMAND --help' lists the options.\n";
 
 int usage_error(const char* program, const std::string& message) {
@@ -78,16 +81,40 @@ int frame_command(int argc, char** argv) {
   return kExitData;
 }
 
+int worst_command(int argc, char** argv) {
+  WorstBench bench;
+  host::Options options(
+      kWorst, "bsm_bench worst LEFT RIGHT [options]",
+      "Times the matching of views that have nothing to match, or the same everywhere, beside a given pair of PPM or\n"
+      "PGM images: flat, striped, noise, unrelated, covered lenses; with the presets fast and balanced and the local\n"
+      "method with 256 and 4096 bits.");
+  options.positional("LEFT", &bench.left);
+  options.positional("RIGHT", &bench.right);
+  options.integer("--disparities", "N", &bench.disparities, 1, BSM_MAX_DISPARITY + 1,
+                  "how many disparities are searched, from 0 up");
+  options.word("--isa", "NAME", &bench.isa, "instructions allowed: auto, scalar or a name from 'bsm info'");
+  options.integer("--repeat", "R", &bench.repeat, 1, 1000000, "runs of each pair of views; the median is reported");
+  options.flag("--csv", &bench.csv, "comma-separated values");
+  int exit_code = kExitOk;
+  if (!parse_command_line(argc, argv, &options, &exit_code)) return exit_code;
+  std::string error;
+  if (!host::isa_mask_of(bench.isa, &bench.isa_mask, &error)) return usage_error(kWorst, error);
+  if (run_worst_bench(bench, &error)) return kExitOk;
+  complain(kWorst, error);
+  return kExitData;
+}
+
 int main_program(int argc, char** argv) {
   const std::string command = argc > 1 ? argv[1] : "";
   if (command == "kernels") return kernels_command(argc - 1, argv + 1);
   if (command == "frame") return frame_command(argc - 1, argv + 1);
+  if (command == "worst") return worst_command(argc - 1, argv + 1);
   if (command == "--help" || command == "-h") {
     std::fputs(kHelp, stdout);
     return kExitOk;
   }
-  return usage_error(kProgram,
-                     command.empty() ? "a command is missing: kernels or frame" : "'" + command + "': no such command");
+  return usage_error(
+      kProgram, command.empty() ? "a command is missing: kernels, frame or worst" : "'" + command + "': no such command");
 }
 
 }  // namespace
