@@ -4,7 +4,7 @@
 namespace bsm::host {
 namespace {
 
-constexpr int kSpins = 2000;  // looks at the counters before sleeping; tens of microseconds
+constexpr int kSpins = 40000;  // looks at the counters before sleeping; tens of microseconds
 
 }  // namespace
 
