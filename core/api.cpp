@@ -48,8 +48,10 @@ bsm_status check_frame(const bsm_frame& frame, const bsm_config& config) {
   return check_map(frame.right_disparity, config);
 }
 
-// Bytes for an arena of any alignment.
-uint64_t arena_bytes(const Plan& plan) {
+// Bytes for an arena of any alignment. Out of line: the plan is large, and callers go on to run the library.
+BSM_NOINLINE uint64_t arena_bytes(const bsm_config& config, const Kernels& kernels) {
+  Plan plan;
+  make_plan(config, kernels, sizeof(bsm_context), &plan);
   return plan.bytes + kArenaAlignment - 1;
 }
 
@@ -68,22 +70,16 @@ void make_distance_steps(bsm_context* context) {
   }
 }
 
-// Out of line: the plan is large, and callers go on to run the library.
+// Out of line as well: so are the kernels.
 BSM_NOINLINE bsm_status plan_bytes(const bsm_config* config, uint32_t features, size_t* bytes) {
   const bsm_status status = validate_config(config);
   if (status != BSM_OK) return status;
   if (bytes == nullptr) return BSM_ERROR_NULL;
-  const Kernels kernels = select_kernels(features & config->isa_mask);
-  Plan plan;
-  make_plan(*config, kernels, sizeof(bsm_context), &plan);
-  const uint64_t needed = arena_bytes(plan);
+  const uint64_t needed = arena_bytes(*config, select_kernels(features & config->isa_mask));
   if (needed > SIZE_MAX) return BSM_ERROR_MEMORY_SIZE;
   *bytes = static_cast<size_t>(needed);
   return BSM_OK;
 }
-
-constexpr RowSource kNoSource{};
-constexpr Parallel kSerial{};
 
 }  // namespace
 }  // namespace bsm
@@ -136,14 +132,9 @@ extern "C" bsm_status bsm_process(bsm_context* context, const bsm_frame* frame) 
   if (context->entered != 0 && context->finished < context->height) return BSM_ERROR_STREAM_OPEN;
 
   engine_reset(context);
-  const RowSource source{{frame->left, frame->right}, 0};
-  const RowSink sink{frame->disparity, frame->right_disparity, frame->confidence};
-  const Parallel parallel{frame->parallel_for, frame->parallel_user};
-  if (context->plan.whole_frame) engine_aggregate_frame(context, source, parallel);
-  while (context->finished < context->height) {
-    engine_advance(context, source, context->plan.batch, parallel);
-    engine_write(context, sink, parallel);
-  }
+  engine_process(*context, Frame{RowSource{{frame->left, frame->right}, 0},
+                                 RowSink{frame->disparity, frame->right_disparity, frame->confidence},
+                                 Parallel{frame->parallel_for, frame->parallel_user}});
   engine_reset(context);
   return BSM_OK;
 }
@@ -158,7 +149,7 @@ extern "C" bsm_status bsm_push_row(bsm_context* context, const bsm_row* left, co
   source.image[kLeft].plane[0] = left->plane[0];
   source.image[kRight].plane[0] = right->plane[0];
   source.first_row = context->entered;
-  engine_advance(context, source, 1, kSerial);
+  engine_enter(context, &source);
   context->ended = context->entered == context->height;
   return BSM_OK;
 }
@@ -171,11 +162,10 @@ extern "C" bsm_status bsm_pull_row(bsm_context* context, int16_t* disparity, int
   if (confidence != nullptr && context->config.confidence == 0) return BSM_ERROR_NO_CONFIDENCE;
   if (context->plan.whole_frame) return BSM_ERROR_ROW_MODE;
   if (context->ended && context->finished == context->height) return BSM_END;
-  while (context->ended && context->finished == engine_rows_out(*context)) {
-    engine_advance(context, kNoSource, 1, kSerial);
-  }
+  while (context->ended && context->finished == engine_rows_out(*context)) engine_enter(context, nullptr);
   if (context->finished == engine_rows_out(*context)) return BSM_NEED_ROWS;
-  engine_write(context, RowSink{{disparity, 0}, {right_disparity, 0}, {confidence, 0}}, kSerial);  // one row: no strides
+  const RowSink row{{disparity, 0}, {right_disparity, 0}, {confidence, 0}};  // no strides
+  engine_write(context, row);
   return BSM_OK;
 }
 

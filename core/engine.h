@@ -10,25 +10,6 @@
 
 namespace bsm {
 
-// How the rows of one stage are spread over jobs.
-struct Parallel {
-  bsm_parallel_for parallel_for;  // nullptr: run in this thread
-  void* user;
-};
-
-// Empties the pipeline.
-void engine_reset(bsm_context* context);
-
-// Moves the pipeline on by `rows` (at most plan.batch) input rows. Rows that exist are read from source; past the last row
-// of the image nothing enters and the rows in flight move on.
-void engine_advance(bsm_context* context, const RowSource& source, int32_t rows, const Parallel& parallel);
-
-// Plans with whole_frame: aggregates the whole frame. engine_advance then moves on from the sums and reads no source.
-void engine_aggregate_frame(bsm_context* context, const RowSource& source, const Parallel& parallel);
-
-// Rows that have left the pipeline so far.
-int32_t engine_rows_out(const bsm_context& context);
-
 // Where row y of each map goes: to data + y * stride; nullptr where a map is not wanted.
 struct RowSink {
   bsm_map disparity;
@@ -36,8 +17,32 @@ struct RowSink {
   bsm_byte_map confidence;
 };
 
-// Writes the rows that have left the pipeline since the last call.
-void engine_write(bsm_context* context, const RowSink& sink, const Parallel& parallel);
+// How work is spread over jobs.
+struct Parallel {
+  bsm_parallel_for parallel_for;  // nullptr: run in this thread
+  void* user;
+};
+
+struct Frame {
+  RowSource source;
+  RowSink sink;
+  Parallel parallel;
+};
+
+// Matches a whole frame. No rows are in flight.
+void engine_process(const bsm_context& context, const Frame& frame);
+
+// Row by row. Empties the pipeline.
+void engine_reset(bsm_context* context);
+
+// Moves the pipeline on by one row: the next one of source; nullptr after the last row of the image.
+void engine_enter(bsm_context* context, const RowSource* source);
+
+// Rows that have left the pipeline so far; those from context->finished on have not been written.
+int32_t engine_rows_out(const bsm_context& context);
+
+// Writes row context->finished.
+void engine_write(bsm_context* context, const RowSink& sink);
 
 }  // namespace bsm
 

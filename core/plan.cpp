@@ -43,7 +43,7 @@ bool is_sgm(const bsm_config& config) {
   return kHasSgm && config.method == BSM_METHOD_SGM && config.stage >= BSM_STAGE_AGGREGATED;
 }
 
-// Stages that run, their radii and the delay they add up to.
+// Stages that run and their radii.
 void plan_stages(const bsm_config& config, Plan* plan) {
   const bool refined = config.stage == BSM_STAGE_REFINED;
   plan->pattern_radius = pattern_of(config).radius;
@@ -54,17 +54,50 @@ void plan_stages(const bsm_config& config, Plan* plan) {
   plan->smooth_radius = plan->smooth_passes != 0 ? config.smooth_radius : 0;
   plan->median_radius = refined ? config.median : 0;
   plan->fraction_radius = refined && is_sgm(config) && config.subpixel != 0 ? kFractionRadius : 0;
-  plan->delay = plan->pattern_radius + plan->speckle_radius + plan->border_radius + plan->vote_radius +
-                plan->smooth_passes * plan->smooth_radius + plan->median_radius + 2 * plan->fraction_radius;
-  // The confidence of a row asks neighbours below it, whose winners must be known.
-  const int32_t known_rows = plan->delay - plan->pattern_radius - plan->speckle_radius;
-  plan->wait = config.confidence != 0 && known_rows < kConfidenceRadius ? kConfidenceRadius - known_rows : 0;
-  plan->delay += plan->wait;
-  plan->batch = config.max_jobs == 1 ? 1 : 4 * config.max_jobs;
   plan->across_paths = !is_sgm(config) ? 0 : config.paths == 8 ? kMaxAcrossPaths : config.paths - 2;
   plan->whole_frame = is_sgm(config) && config.paths == 8;
   const bool masked = config.stage != BSM_STAGE_COST;
   plan->planes = !masked ? 0 : config.format == BSM_FORMAT_GRAY8 ? 1 : 3;
+}
+
+// The steps that run, how far each is behind the input, and how many rows move at once.
+void plan_steps(const bsm_config& config, Plan* plan) {
+  const bool refined = config.stage == BSM_STAGE_REFINED;
+  int32_t lag = 0;
+  int8_t turn = 0;
+  const auto add = [&](int32_t step, bool runs, int32_t radius) {
+    if (!runs) return;
+    lag += radius;
+    plan->step[step] = StepPlan{static_cast<int16_t>(lag), turn++, true};
+  };
+  add(kEnter, true, 0);
+  add(kMatch, true, plan->pattern_radius);
+  for (int32_t path = 0; path < plan->across_paths; ++path) add(kAcross + path, true, 0);
+  add(kCheck, true, 0);
+  add(kDespeckle, plan->speckle_radius != 0, plan->speckle_radius);
+  const int32_t checked = lag;
+  add(kContinue, plan->border_radius != 0, plan->border_radius);
+  add(kVote, refined, plan->vote_radius);
+  add(kFill, refined, 0);
+  for (int32_t pass = 0; pass < plan->smooth_passes; ++pass) add(kSmooth + pass, true, plan->smooth_radius);
+  const bool fractions = plan->fraction_radius != 0;
+  add(kRestore, fractions, plan->median_radius);
+  add(kSmoothFraction, fractions, plan->fraction_radius);
+  const int32_t written = lag + (fractions ? plan->fraction_radius : plan->median_radius);
+  // The confidence of a row asks neighbours below it, whose winners must be known.
+  const int32_t known = checked + (config.confidence != 0 ? kConfidenceRadius : 0);
+  add(kWrite, true, largest(written, known) - lag);
+  plan->delay = lag;
+  plan->batch = config.max_jobs == 1 ? 1 : 2 * config.max_jobs;
+  plan->skew = config.max_jobs == 1 ? 0 : plan->batch;
+}
+
+// Rows of a ring that `writer` fills and `reader` reads up to `reach` rows above the row it is at; 0 where one does not run.
+int32_t ring_rows(const Plan& plan, int32_t writer, int32_t reader, int32_t reach) {
+  const StepPlan& first = plan.step[writer];
+  const StepPlan& last = plan.step[reader];
+  if (!first.runs || !last.runs) return 0;
+  return plan.batch + last.lag - first.lag + (last.turn - first.turn) * plan.skew + reach;
 }
 
 // Bytes of one row's costs of all levels.
@@ -104,6 +137,7 @@ Pattern pattern_of(const bsm_config& config) {
 int32_t row_delay(const bsm_config& config) {
   Plan plan{};
   plan_stages(config, &plan);
+  plan_steps(config, &plan);
   return plan.delay;
 }
 
@@ -111,27 +145,33 @@ void make_plan(const bsm_config& config, const Kernels& kernels, uint64_t contex
   Plan& plan = *out;
   BSM_MEMSET(&plan, 0, sizeof plan);
   plan_stages(config, &plan);
+  plan_steps(config, &plan);
   const bool refined = config.stage == BSM_STAGE_REFINED;
   const bool sgm = is_sgm(config);
+  const bool confidence = config.confidence != 0;
+  const bool fractions = plan.fraction_radius != 0;
 
-  // Rows enter with lag 0; a stage's lag is the sum of the radii up to it. In one batch a stage writes the rows
-  // c - lag .. c - lag + batch - 1, and each ring spans from the oldest row that a later stage reads to the newest written.
-  const int32_t batch = plan.batch + plan.wait;  // finished rows stay until they are written
+  // Each ring spans from the oldest row that its last reader needs to the newest written.
   const int32_t pattern = plan.pattern_radius;
-  const int32_t speckle = plan.speckle_radius;
   const int32_t border = plan.border_radius;
   const int32_t vote = plan.vote_radius;
   const int32_t smooth = plan.smooth_radius;
-  const int32_t passes = plan.smooth_passes;
-  const int32_t median = plan.median_radius;
-  const int32_t vote_lag = pattern + speckle + border + vote;
-  const int32_t window_rows = batch + 2 * pattern;
-  const int32_t refine_lab_rows = batch + largest(2 * pattern, vote_lag + largest(vote, (passes + 1) * smooth));
-  const int32_t fraction = plan.fraction_radius;
-  const int32_t kept_rows = plan.delay - pattern;  // from a row's winners to its output
-  const int32_t confidence_rows = config.confidence != 0 ? kept_rows - speckle + kConfidenceRadius : 0;
-  const int32_t level_rows = batch + largest(confidence_rows, border + vote + largest(vote, passes * smooth + median));
-  const int32_t voted_rows = refined ? batch + largest(1, smooth != 0 ? 2 * smooth : 2 * median) : 0;
+  const int32_t last_smooth = kSmooth + plan.smooth_passes - 1;
+  const int32_t checker = plan.speckle_radius != 0 ? kDespeckle : kCheck;  // writes the checked levels
+  const int32_t dense_reader = fractions ? kRestore : kWrite;
+  const int32_t window_rows = ring_rows(plan, kEnter, kMatch, pattern);
+  int32_t refine_lab_rows = largest(window_rows, ring_rows(plan, kEnter, kVote, vote));
+  if (smooth != 0) refine_lab_rows = largest(refine_lab_rows, ring_rows(plan, kEnter, last_smooth, smooth));
+  const int32_t edge_lab_rows = plan.across_paths == 0 ? 0 : ring_rows(plan, kEnter, kAcross + plan.across_paths - 1, 1);
+  const int32_t winner_rows = ring_rows(plan, kMatch, kCheck, 0);
+  const int32_t confidence_rows = confidence ? ring_rows(plan, checker, kWrite, kConfidenceRadius) : 0;
+  const int32_t level_reader = !refined ? kWrite : fractions ? kRestore : smooth != 0 ? last_smooth : kFill;
+  const int32_t level_rows =
+      largest(largest(ring_rows(plan, checker, kVote, vote), confidence_rows), ring_rows(plan, checker, level_reader, 0));
+  const int32_t fit_rows = largest(ring_rows(plan, checker, kContinue, border), confidence_rows);
+  const int32_t voted_rows =
+      largest(ring_rows(plan, kVote, kFill, 1), smooth != 0 ? ring_rows(plan, kVote, kSmooth, smooth)
+                                                            : ring_rows(plan, kVote, dense_reader, plan.median_radius));
   const int32_t all = plan.whole_frame ? config.height : 0;  // whole-frame plans keep every row between the two passes
 
   const uint64_t width = round_up(static_cast<uint32_t>(config.width), static_cast<uint32_t>(kernels.block[kPixels]));
@@ -145,32 +185,37 @@ void make_plan(const bsm_config& config, const Kernels& kernels, uint64_t contex
   carver.take(context_bytes);
   for (int32_t view = 0; view < kViews; ++view) {
     const bool wanted = view == kLeft || config.right_map != 0;
-    const int32_t lab_rows = refined && wanted ? refine_lab_rows : window_rows;
+    const int32_t lab_rows = largest(refined && wanted ? refine_lab_rows : window_rows, view == kLeft ? edge_lab_rows : 0);
     plan.luma[view] = carver.take_ring(window_rows, pad * sizeof(uint16_t), padded * sizeof(uint16_t));
     plan.lab[view] =
         carver.take_ring(plan.planes == 0 ? 0 : largest(lab_rows, all), pad, padded * static_cast<uint32_t>(plan.planes));
-    plan.winner[view] = carver.take_ring(largest(batch, all), 0, width * sizeof(uint16_t));
-    plan.checked[view] = carver.take_ring(wanted && speckle != 0 ? batch + 2 * speckle : 0, 0, width * sizeof(uint16_t));
+    plan.winner[view] = carver.take_ring(largest(winner_rows, all), 0, width * sizeof(uint16_t));
+    plan.checked[view] =
+        carver.take_ring(wanted ? ring_rows(plan, kCheck, kDespeckle, plan.speckle_radius) : 0, 0, width * sizeof(uint16_t));
     plan.level[view] = carver.take_ring(wanted ? level_rows : 0, 0, width * sizeof(uint16_t));
-    plan.fit[view] =
-        carver.take_ring(wanted && border != 0 ? batch + largest(2 * border, confidence_rows) : 0, 0, sizeof(BorderFit));
+    plan.fit[view] = carver.take_ring(wanted && border != 0 ? fit_rows : 0, 0, sizeof(BorderFit));
     plan.voted[view] = carver.take_ring(wanted ? voted_rows : 0, 0, width * sizeof(uint16_t));
-    const int32_t fraction_rows = wanted && fraction != 0 ? batch + 2 * fraction : 0;
-    plan.fraction[view] = carver.take_ring(fraction_rows, 0, width * sizeof(uint16_t));
-    plan.fraction_weight[view] = carver.take_ring(fraction_rows == 0 ? 0 : fraction_rows + fraction, 0, width);
-    plan.fraction_once[view] = carver.take_ring(fraction_rows, 0, width * sizeof(uint16_t));
-    for (int32_t pass = 0; pass < passes; ++pass) {
-      const int32_t rows = batch + 2 * (pass + 1 < passes ? smooth : median);
+    plan.fraction[view] = carver.take_ring(wanted ? ring_rows(plan, kRestore, kSmoothFraction, plan.fraction_radius) : 0, 0,
+                                           width * sizeof(uint16_t));
+    plan.fraction_weight[view] =
+        carver.take_ring(wanted ? ring_rows(plan, kRestore, kWrite, plan.fraction_radius) : 0, 0, width);
+    plan.fraction_once[view] = carver.take_ring(wanted ? ring_rows(plan, kSmoothFraction, kWrite, plan.fraction_radius) : 0,
+                                                0, width * sizeof(uint16_t));
+    for (int32_t pass = 0; pass < plan.smooth_passes; ++pass) {
+      const bool last = kSmooth + pass == last_smooth;
+      const int32_t rows =
+          ring_rows(plan, kSmooth + pass, last ? dense_reader : kSmooth + pass + 1, last ? plan.median_radius : smooth);
       plan.smoothed[pass][view] = carver.take_ring(wanted ? rows : 0, 0, width * sizeof(uint16_t));
     }
   }
-  plan.margin = carver.take_ring(sgm && config.confidence != 0 ? batch + kept_rows : 0, 0, width);
+  plan.margin = carver.take_ring(sgm && confidence ? ring_rows(plan, kCheck, kWrite, 0) : 0, 0, width);
   const uint64_t costs = cost_bytes(config, plan);
-  plan.cost = carver.take_ring(sgm ? largest(batch, all) : 0, 0, costs);
-  plan.sum = carver.take_ring(sgm ? largest(batch, all) : 0, 0, costs);
+  const int32_t cost_rows = sgm ? ring_rows(plan, kMatch, kAcross + plan.across_paths - 1, 0) : 0;
+  plan.cost = carver.take_ring(largest(cost_rows, sgm ? all : 0), 0, costs);
+  plan.sum = carver.take_ring(sgm ? largest(ring_rows(plan, kMatch, kCheck, 0), all) : 0, 0, costs);
   // One row at a time, a path's costs are updated in place.
   for (int32_t i = 0; i < kMaxAcrossPaths; ++i) {
-    plan.path[i] = carver.take_ring(i >= plan.across_paths ? 0 : batch == 1 ? 1 : batch + 1, 0, costs);
+    plan.path[i] = carver.take_ring(i >= plan.across_paths ? 0 : plan.batch == 1 ? 1 : plan.batch + 1, 0, costs);
   }
   const uint64_t vote_side = refined ? static_cast<uint32_t>(vote + 1) : 0;
   plan.vote_steps = carver.take(vote_side * vote_side * sizeof(uint16_t));

@@ -34,6 +34,30 @@ struct JobPlan {
   uint64_t bytes;
 };
 
+// The steps of a row's way, in order. The paths from the row before and the passes of the weighted median are steps of their
+// own: kAcross + path, kSmooth + pass.
+enum Step : int32_t {
+  kEnter,
+  kMatch,
+  kAcross,
+  kCheck = kAcross + kMaxAcrossPaths,
+  kDespeckle,
+  kContinue,
+  kVote,
+  kFill,
+  kSmooth,
+  kRestore = kSmooth + BSM_MAX_SMOOTH_PASSES,
+  kSmoothFraction,
+  kWrite,
+  kSteps
+};
+
+struct StepPlan {
+  int16_t lag;  // rows behind the input: the sum of the radii up to this step
+  int8_t turn;  // steps that run before this one
+  bool runs;
+};
+
 struct Plan {
   // Rows that each stage looks beyond the row it writes; 0 for stages that do not run.
   int32_t pattern_radius;
@@ -44,10 +68,11 @@ struct Plan {
   int32_t smooth_passes;
   int32_t median_radius;
   int32_t fraction_radius;  // of each of two passes
-  int32_t wait;             // rows that output waits for the confidence
-  int32_t delay;            // sum of them: rows from input to output
+  int32_t delay;            // rows from input to output, one row at a time
+  StepPlan step[kSteps];
 
-  int32_t batch;         // rows that move through the stages together
+  int32_t batch;         // rows that move together
+  int32_t skew;          // rows that each step lags more than the one before where jobs run side by side
   int32_t across_paths;  // paths from the row before
   bool whole_frame;      // paths from below run over the whole frame before a row goes out
   int32_t planes;        // CIELAB planes kept: 0, 1 or 3
