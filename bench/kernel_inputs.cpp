@@ -170,7 +170,7 @@ void prepare(Inputs& inputs, kernel_scratch_fn*, ColorLabArgs* args) {
   uint8_t* const source = inputs.take<uint8_t>(3 * width);
   fill_texture(inputs.rng, 3 * inputs.width, 255, source);
   *args = ColorLabArgs{
-      source,       BSM_FORMAT_RGB24, inputs.width, inputs.take<uint16_t>(width), inputs.take<uint8_t>(3 * width),
+      source,       nullptr, BSM_FORMAT_RGB24, inputs.width, inputs.take<uint16_t>(width), inputs.take<uint8_t>(3 * width),
       inputs.width, kPlanes};
 }
 

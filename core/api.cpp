@@ -17,8 +17,18 @@ bsm_status check_context(const bsm_context* context) {
 }
 
 // True when rows of `row_bytes` bytes would overlap.
-bool too_short(ptrdiff_t stride, ptrdiff_t row_bytes, int32_t rows) {
-  return rows > 1 && stride < row_bytes && -stride < row_bytes;
+bool too_short(ptrdiff_t stride, ptrdiff_t bytes, int32_t rows) {
+  return rows > 1 && stride < bytes && stride > -bytes;
+}
+
+// True when every plane of the format is there.
+bool has_planes(const void* const plane[2], int32_t format) {
+  return plane[0] != nullptr && (plane[1] != nullptr || !has_chroma_plane(format));
+}
+
+bool too_short(const bsm_image& image, const bsm_config& config) {
+  if (too_short(image.stride[0], row_bytes(config), config.height)) return true;
+  return has_chroma_plane(config.format) && too_short(image.stride[1], chroma_row_bytes(config), (config.height + 1) / 2);
 }
 
 bool is_even(const void* pointer) {
@@ -27,16 +37,14 @@ bool is_even(const void* pointer) {
 
 bsm_status check_map(const bsm_map& map, const bsm_config& config) {
   if (!is_even(map.data) || (map.stride & 1) != 0) return BSM_ERROR_ALIGNMENT;
-  const ptrdiff_t row_bytes = ptrdiff_t{config.width} * static_cast<ptrdiff_t>(sizeof(int16_t));
-  return too_short(map.stride, row_bytes, config.height) ? BSM_ERROR_STRIDE : BSM_OK;
+  const ptrdiff_t bytes = ptrdiff_t{config.width} * static_cast<ptrdiff_t>(sizeof(int16_t));
+  return too_short(map.stride, bytes, config.height) ? BSM_ERROR_STRIDE : BSM_OK;
 }
 
 bsm_status check_frame(const bsm_frame& frame, const bsm_config& config) {
   if (frame.disparity.data == nullptr) return BSM_ERROR_NULL;
-  if (frame.left.plane[0] == nullptr || frame.right.plane[0] == nullptr) return BSM_ERROR_NULL;
-  const ptrdiff_t row_bytes = ptrdiff_t{config.width} * pixel_bytes(config.format);
-  if (too_short(frame.left.stride[0], row_bytes, config.height)) return BSM_ERROR_STRIDE;
-  if (too_short(frame.right.stride[0], row_bytes, config.height)) return BSM_ERROR_STRIDE;
+  if (!has_planes(frame.left.plane, config.format) || !has_planes(frame.right.plane, config.format)) return BSM_ERROR_NULL;
+  if (too_short(frame.left, config) || too_short(frame.right, config)) return BSM_ERROR_STRIDE;
   const bsm_status status = check_map(frame.disparity, config);
   if (status != BSM_OK) return status;
   if (frame.confidence.data != nullptr) {
@@ -141,13 +149,17 @@ extern "C" bsm_status bsm_process(bsm_context* context, const bsm_frame* frame) 
 
 extern "C" bsm_status bsm_push_row(bsm_context* context, const bsm_row* left, const bsm_row* right) {
   if (check_context(context) != BSM_OK) return check_context(context);
-  if (left == nullptr || right == nullptr || left->plane[0] == nullptr || right->plane[0] == nullptr) return BSM_ERROR_NULL;
+  if (left == nullptr || right == nullptr) return BSM_ERROR_NULL;
+  const int32_t format = context->config.format;
+  if (!has_planes(left->plane, format) || !has_planes(right->plane, format)) return BSM_ERROR_NULL;
   if (context->plan.whole_frame) return BSM_ERROR_ROW_MODE;
   if (context->ended) return BSM_ERROR_ROW_COUNT;
   if (context->finished < engine_rows_out(*context)) return BSM_ERROR_PULL_FIRST;
   RowSource source{};
-  source.image[kLeft].plane[0] = left->plane[0];
-  source.image[kRight].plane[0] = right->plane[0];
+  for (int32_t plane = 0; plane < 2; ++plane) {
+    source.image[kLeft].plane[plane] = left->plane[plane];
+    source.image[kRight].plane[plane] = right->plane[plane];
+  }
   source.first_row = context->entered;
   engine_enter(context, &source);
   context->ended = context->entered == context->height;

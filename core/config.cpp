@@ -13,17 +13,29 @@ bool within(int32_t value, int32_t least, int32_t most) {
 
 }  // namespace
 
-int32_t pixel_bytes(int32_t format) {
-  switch (format) {
+bool has_chroma_plane(int32_t format) {
+  return format == BSM_FORMAT_NV12 || format == BSM_FORMAT_NV21;
+}
+
+int32_t chroma_row_bytes(const bsm_config& config) {
+  return config.width + (config.width & 1);
+}
+
+int32_t row_bytes(const bsm_config& config) {
+  switch (config.format) {
     case BSM_FORMAT_GRAY8:
-      return 1;
+    case BSM_FORMAT_NV12:
+    case BSM_FORMAT_NV21:
+      return config.width;
     case BSM_FORMAT_RGB565:
-      return 2;
+      return 2 * config.width;
+    case BSM_FORMAT_YUYV:
+      return 2 * (config.width + (config.width & 1));
     case BSM_FORMAT_RGB24:
     case BSM_FORMAT_BGR24:
-      return 3;
+      return 3 * config.width;
     default:
-      return 4;
+      return 4 * config.width;
   }
 }
 
@@ -46,8 +58,7 @@ bsm_status validate_config(const bsm_config* config) {
   // The stages before the aggregation are the local method's.
   if (!within(config->stage, kHasLocal ? BSM_STAGE_COST : BSM_STAGE_AGGREGATED, BSM_STAGE_REFINED)) return BSM_ERROR_STAGE;
   if (config->stage == BSM_STAGE_AGGREGATED && !sgm) return BSM_ERROR_STAGE;
-  if (!within(config->format, BSM_FORMAT_GRAY8, BSM_FORMAT_RGB565)) return BSM_ERROR_FORMAT;
-  if (!kHasColor && config->format != BSM_FORMAT_GRAY8) return BSM_ERROR_FORMAT;
+  if (!within(config->format, BSM_FORMAT_GRAY8, kHasColor ? BSM_FORMAT_YUYV : BSM_FORMAT_GRAY8)) return BSM_ERROR_FORMAT;
   if (!within(config->paths, 3, 5) && config->paths != 8) return BSM_ERROR_PATHS;
   if (!within(config->p1, 1, 16384) || !within(config->p2, config->p1, 16384)) return BSM_ERROR_PENALTY;
   if (!within(config->edge_threshold, 1, 255) || !within(config->edge_divisor, 1, 64)) return BSM_ERROR_EDGE;

@@ -11,8 +11,12 @@ namespace bsm {
 // BSM_OK, or the status of the first field that is out of its range.
 bsm_status validate_config(const bsm_config* config);
 
-// Bytes of a pixel of plane 0.
-int32_t pixel_bytes(int32_t format);
+// Whether the format has a second plane: one chroma row for two rows of pixels.
+bool has_chroma_plane(int32_t format);
+
+// Bytes of a row of plane 0 or, in a format that has it, of the chroma plane.
+int32_t row_bytes(const bsm_config& config);
+int32_t chroma_row_bytes(const bsm_config& config);
 
 }  // namespace bsm
 

@@ -4,6 +4,7 @@
 #include "core/aggregate.h"
 #include "core/border.h"
 #include "core/confidence.h"
+#include "core/config.h"
 #include "core/consistency.h"
 #include "core/refine.h"
 #include "platform/compiler.h"
@@ -86,6 +87,9 @@ void enter_row(const bsm_context& context, const RowSource& source, int32_t y) {
     const bsm_image& image = source.image[view];
     ColorLabArgs args{};
     args.source = static_cast<const uint8_t*>(image.plane[0]) + (y - source.first_row) * image.stride[0];
+    if (has_chroma_plane(context.config.format)) {
+      args.chroma = static_cast<const uint8_t*>(image.plane[1]) + (y - source.first_row) / 2 * image.stride[1];
+    }
     args.format = context.config.format;
     args.width = context.config.width;
     args.luma = ring_row<uint16_t>(context, plan.luma[view], y);

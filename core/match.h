@@ -9,7 +9,8 @@
 
 namespace bsm {
 
-// Where input rows come from: row y of a view is at plane[0] + (y - first_row) * stride[0].
+// Where input rows come from: row y of a view is at plane[0] + (y - first_row) * stride[0]; its chroma row, where the format
+// has one, at plane[1] + (y - first_row) / 2 * stride[1].
 struct RowSource {
   bsm_image image[kViews];
   int32_t first_row;

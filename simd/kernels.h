@@ -48,9 +48,11 @@ static inline int32_t whole_level(uint16_t sixteenths) {
 }
 
 // color_lab: one row of input pixels to luma and CIELAB.
-// Luma is 76 R + 150 G + 29 B, undivided, so that ties are rare. CIELAB is stored in 8 bits a channel, see simd/lab.h.
+// Luma is 76 R + 150 G + 29 B, undivided, so that ties are rare; 255 Y for gray and YUV. CIELAB is stored in 8 bits a
+// channel, see simd/lab.h; YUV becomes RGB first, see simd/yuv.h.
 struct ColorLabArgs {
-  const uint8_t* source;  // width pixels, plane 0
+  const uint8_t* source;  // width pixels, plane 0; yuyv: width rounded up to even
+  const uint8_t* chroma;  // nv12, nv21: (width + 1) / 2 pairs; other formats: not read
   int32_t format;         // bsm_format
   int32_t width;
   uint16_t* luma;          // width values; nullptr: not wanted

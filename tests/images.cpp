@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "simd/yuv.h"
+
 namespace bsm::test {
 namespace {
 
@@ -70,6 +72,55 @@ ColorPair map_pixels(const ColorPair& pair, PixelFunction change) {
   return result;
 }
 
+// Where the pieces of a YUV format lie: Y of pixel (x, y), and U and V of the group that it belongs to.
+struct YuvLayout {
+  int y_step, u, v;
+  bool planar;
+};
+YuvLayout layout_of(bsm_format format) {
+  switch (format) {
+    case BSM_FORMAT_NV12:
+      return {1, 0, 1, true};
+    case BSM_FORMAT_NV21:
+      return {1, 1, 0, true};
+    default:
+      return {2, 1, 3, false};
+  }
+}
+ptrdiff_t chroma_offset(const PixelImage& image, int x, int y) {
+  return layout_of(image.format).planar ? y / 2 * image.chroma_stride + x / 2 * 2 : y * image.stride + x / 2 * 4;
+}
+uint8_t clamp_to_byte(int value) {
+  return static_cast<uint8_t>(std::clamp(value, 0, 255));
+}
+
+// Full-range BT.601, coefficients in 2^-16.
+void encode_yuv(const ColorImage& image, PixelImage* result) {
+  const YuvLayout layout = layout_of(result->format);
+  const int rows = layout.planar ? 2 : 1;
+  std::vector<uint8_t>& chroma = layout.planar ? result->chroma : result->bytes;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const uint8_t* rgb = image.at(x, y);
+      const int luma = (19595 * rgb[0] + 38470 * rgb[1] + 7471 * rgb[2] + (1 << 15)) >> 16;
+      result->bytes[static_cast<size_t>(y * result->stride + x * layout.y_step)] = static_cast<uint8_t>(luma);
+      if (x % 2 != 0 || y % rows != 0) continue;
+      int sum[3] = {}, count = 0;
+      for (int j = y; j < std::min(y + rows, image.height); ++j) {
+        for (int i = x; i < std::min(x + 2, image.width); ++i, ++count) {
+          for (int c = 0; c < 3; ++c) sum[c] += image.at(i, j)[c];
+        }
+      }
+      const int r = sum[0] / count, g = sum[1] / count, b = sum[2] / count;
+      const ptrdiff_t group = chroma_offset(*result, x, y);
+      const int u = (-11059 * r - 21709 * g + 32768 * b + (128 << 16) + (1 << 15)) >> 16;
+      const int v = (32768 * r - 27439 * g - 5329 * b + (128 << 16) + (1 << 15)) >> 16;
+      chroma[static_cast<size_t>(group + layout.u)] = clamp_to_byte(u);
+      chroma[static_cast<size_t>(group + layout.v)] = clamp_to_byte(v);
+    }
+  }
+}
+
 }  // namespace
 
 const char* format_name(bsm_format format) {
@@ -86,24 +137,50 @@ const char* format_name(bsm_format format) {
       return "bgra32";
     case BSM_FORMAT_RGB565:
       return "rgb565";
+    case BSM_FORMAT_NV12:
+      return "nv12";
+    case BSM_FORMAT_NV21:
+      return "nv21";
+    case BSM_FORMAT_YUYV:
+      return "yuyv";
   }
   return "?";
 }
 
-int bytes_per_pixel(bsm_format format) {
+bool has_chroma_plane(bsm_format format) {
+  return format == BSM_FORMAT_NV12 || format == BSM_FORMAT_NV21;
+}
+
+bool is_yuv(bsm_format format) {
+  return has_chroma_plane(format) || format == BSM_FORMAT_YUYV;
+}
+
+bsm_format any_format(Rng& rng) {
+  return kAllFormats[rng.range(0, static_cast<int>(std::size(kAllFormats)) - 1)];
+}
+
+int row_bytes(bsm_format format, int width) {
   switch (format) {
     case BSM_FORMAT_GRAY8:
-      return 1;
+    case BSM_FORMAT_NV12:
+    case BSM_FORMAT_NV21:
+      return width;
     case BSM_FORMAT_RGB24:
     case BSM_FORMAT_BGR24:
-      return 3;
+      return 3 * width;
     case BSM_FORMAT_RGBA32:
     case BSM_FORMAT_BGRA32:
-      return 4;
+      return 4 * width;
     case BSM_FORMAT_RGB565:
-      return 2;
+      return 2 * width;
+    case BSM_FORMAT_YUYV:
+      return (width + 1) / 2 * 4;
   }
   return 0;
+}
+
+int chroma_row_bytes(int width) {
+  return (width + 1) / 2 * 2;
 }
 
 const char* stage_name(bsm_stage stage) {
@@ -198,14 +275,24 @@ ColorPair to_rgb565_colors(const ColorPair& pair) {
 }
 
 PixelImage encode(const ColorImage& image, bsm_format format, int padding) {
-  const int pixel_bytes = bytes_per_pixel(format);
   PixelImage result;
   result.width = image.width;
   result.height = image.height;
   result.format = format;
-  result.stride = static_cast<ptrdiff_t>(image.width) * pixel_bytes + padding;
-  result.bytes.resize(static_cast<size_t>(result.stride) * static_cast<size_t>(image.height));
-  for (size_t i = 0; i < result.bytes.size(); ++i) result.bytes[i] = static_cast<uint8_t>(i * 151 + 17);
+  result.stride = row_bytes(format, image.width) + padding;
+  result.bytes.resize(static_cast<size_t>(result.stride * image.height));
+  if (has_chroma_plane(format)) {
+    result.chroma_stride = chroma_row_bytes(image.width) + padding;
+    result.chroma.resize(static_cast<size_t>(result.chroma_stride * ((image.height + 1) / 2)));
+  }
+  for (std::vector<uint8_t>* plane : {&result.bytes, &result.chroma}) {
+    for (size_t i = 0; i < plane->size(); ++i) (*plane)[i] = static_cast<uint8_t>(i * 151 + 17);
+  }
+  if (is_yuv(format)) {
+    encode_yuv(image, &result);
+    return result;
+  }
+  const int pixel_bytes = row_bytes(format, 1);
   for (int y = 0; y < image.height; ++y) {
     uint8_t* out = result.bytes.data() + y * result.stride;
     for (int x = 0; x < image.width; ++x, out += pixel_bytes) {
@@ -228,6 +315,8 @@ PixelImage encode(const ColorImage& image, bsm_format format, int padding) {
           out[1] = static_cast<uint8_t>(value >> 8);
           break;
         }
+        default:
+          break;
       }
     }
   }
@@ -236,6 +325,29 @@ PixelImage encode(const ColorImage& image, bsm_format format, int padding) {
 
 EncodedPair encode(const ColorPair& pair, bsm_format format, int padding) {
   return {encode(pair.left, format, padding), encode(pair.right, format, padding)};
+}
+
+ColorImage decode(const PixelImage& image) {
+  const YuvLayout layout = layout_of(image.format);
+  const std::vector<uint8_t>& chroma = layout.planar ? image.chroma : image.bytes;
+  ColorImage colors(image.width, image.height);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const uint8_t luma = image.row(y)[x * layout.y_step];
+      const uint8_t* group = &chroma[static_cast<size_t>(chroma_offset(image, x, y))];
+      const ChromaTerms terms = chroma_terms(group[layout.u], group[layout.v]);
+      uint8_t* rgb = colors.at(x, y);
+      rgb[0] = channel_from_yuv(luma, terms.r);
+      rgb[1] = channel_from_yuv(luma, terms.g);
+      rgb[2] = channel_from_yuv(luma, terms.b);
+      colors.luma.push_back(luma);
+    }
+  }
+  return colors;
+}
+
+ColorPair decode(const EncodedPair& pair) {
+  return {decode(pair.left), decode(pair.right)};
 }
 
 }  // namespace bsm::test

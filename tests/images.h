@@ -11,10 +11,12 @@
 
 namespace bsm::test {
 
-// Colours of an image: 3 bytes R G B a pixel, rows without gaps.
+// Colours of an image: 3 bytes R G B a pixel, rows without gaps. Images decoded from YUV keep Y, which their luma is made
+// of.
 struct ColorImage {
   int width = 0, height = 0;
   std::vector<uint8_t> rgb;
+  std::vector<uint8_t> luma;
 
   ColorImage() = default;
   ColorImage(int w, int h) : width(w), height(h), rgb(static_cast<size_t>(w) * static_cast<size_t>(h) * 3) {}
@@ -30,15 +32,22 @@ struct ColorPair {
   ColorImage left, right;
 };
 
-// The bytes of an image in one of the library's formats.
+// The bytes of an image in one of the library's formats; chroma is the second plane of those that have one, else empty.
 struct PixelImage {
   int width = 0, height = 0;
   bsm_format format = BSM_FORMAT_RGB24;
   ptrdiff_t stride = 0;
   std::vector<uint8_t> bytes;
+  ptrdiff_t chroma_stride = 0;
+  std::vector<uint8_t> chroma = {};
 
   const uint8_t* row(int y) const { return bytes.data() + static_cast<ptrdiff_t>(y) * stride; }
-  bsm_image view() const { return bsm_image{{bytes.data(), nullptr}, {stride, 0}}; }
+  const uint8_t* chroma_row(int y) const {
+    return chroma.empty() ? nullptr : chroma.data() + static_cast<ptrdiff_t>(y / 2) * chroma_stride;
+  }
+  // What the row API takes for row y.
+  bsm_row planes(int y) const { return bsm_row{{row(y), chroma_row(y)}}; }
+  bsm_image view() const { return bsm_image{{row(0), chroma_row(0)}, {stride, chroma_stride}}; }
 };
 
 struct EncodedPair {
@@ -46,9 +55,17 @@ struct EncodedPair {
 };
 
 inline constexpr bsm_format kAllFormats[] = {BSM_FORMAT_GRAY8,  BSM_FORMAT_RGB24,  BSM_FORMAT_BGR24,
-                                             BSM_FORMAT_RGBA32, BSM_FORMAT_BGRA32, BSM_FORMAT_RGB565};
+                                             BSM_FORMAT_RGBA32, BSM_FORMAT_BGRA32, BSM_FORMAT_RGB565,
+                                             BSM_FORMAT_NV12,   BSM_FORMAT_NV21,   BSM_FORMAT_YUYV};
+inline constexpr bsm_format kYuvFormats[] = {BSM_FORMAT_NV12, BSM_FORMAT_NV21, BSM_FORMAT_YUYV};
 const char* format_name(bsm_format format);
-int bytes_per_pixel(bsm_format format);
+bool is_yuv(bsm_format format);
+bool has_chroma_plane(bsm_format format);
+bsm_format any_format(Rng& rng);
+
+// Bytes of a row of pixels of plane 0 and of the chroma plane.
+int row_bytes(bsm_format format, int width);
+int chroma_row_bytes(int width);
 
 // The stages of the local method, in order.
 inline constexpr bsm_stage kStages[] = {BSM_STAGE_COST, BSM_STAGE_MASKED, BSM_STAGE_CHECKED, BSM_STAGE_REFINED};
@@ -76,9 +93,14 @@ ColorPair to_gray(const ColorPair& pair);
 // The same with every colour rounded to one that rgb565 holds exactly (top bits repeated below).
 ColorPair to_rgb565_colors(const ColorPair& pair);
 
-// Encodes colours; gray8 takes the green channel. `padding` extra bytes end each row, filled with noise from their position.
+// Encodes colours; gray8 takes the green channel, chroma is that of the mean colour. `padding` extra bytes end each row,
+// filled with noise from their position.
 PixelImage encode(const ColorImage& image, bsm_format format, int padding = 0);
 EncodedPair encode(const ColorPair& pair, bsm_format format, int padding = 0);
+
+// The colours that an image of a YUV format shows.
+ColorImage decode(const PixelImage& image);
+ColorPair decode(const EncodedPair& pair);
 
 }  // namespace bsm::test
 

@@ -3,6 +3,7 @@
 
 #include "core/pattern.h"
 #include "core/weights.h"
+#include "images.h"
 #include "kernel_cases.h"
 
 namespace bsm::test {
@@ -66,16 +67,19 @@ int any_least(const Trial& trial) {
 }  // namespace
 
 void try_kernel(const Trial& trial, const Kernel<ColorLabArgs>& kernel, const Kernel<ColorLabArgs>& scalar) {
-  static constexpr int kBytes[] = {1, 3, 3, 4, 4, 2};
   ColorLabArgs args{};
-  args.format = trial.rng.range(BSM_FORMAT_GRAY8, BSM_FORMAT_RGB565);
+  const bsm_format format = any_format(trial.rng);
+  args.format = format;
   args.width = trial.width;
   args.planes = args.format == BSM_FORMAT_GRAY8 ? 1 : 3;
   args.plane_stride = trial.width + trial.rng.range(0, 20);
-  const size_t bytes = static_cast<size_t>(trial.width * kBytes[args.format]);
-  uint8_t* const source = trial.yard.take(bytes, 1);
-  fill(trial.rng, source, bytes, any_values(trial.rng));
-  args.source = source;
+  const auto take_pixels = [&trial](int bytes) {
+    uint8_t* const pixels = trial.yard.take(static_cast<size_t>(bytes), 1);
+    fill(trial.rng, pixels, static_cast<size_t>(bytes), any_values(trial.rng));
+    return pixels;
+  };
+  args.source = take_pixels(row_bytes(format, trial.width));
+  if (has_chroma_plane(format)) args.chroma = take_pixels(chroma_row_bytes(trial.width));
   Output<uint16_t> luma = take_output<uint16_t>(trial, static_cast<size_t>(trial.width));
   Output<uint8_t> lab =
       take_output<uint8_t>(trial, static_cast<size_t>(args.plane_stride * (args.planes - 1) + trial.width));

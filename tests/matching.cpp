@@ -37,6 +37,24 @@ void run_threads(void*, int32_t count, bsm_job job, void* job_context) {
   for (std::thread& thread : threads) thread.join();
 }
 
+// A row of an image in memory of its own.
+class RowCopy {
+ public:
+  bsm_row take(const PixelImage& image, int y) {
+    pixels_.assign(image.row(y), image.row(y) + row_bytes(image.format, image.width));
+    if (image.chroma.empty()) return bsm_row{{pixels_.data(), nullptr}};
+    chroma_.assign(image.chroma_row(y), image.chroma_row(y) + chroma_row_bytes(image.width));
+    return bsm_row{{pixels_.data(), chroma_.data()}};
+  }
+  void fill(uint8_t value) {
+    std::fill(pixels_.begin(), pixels_.end(), value);
+    std::fill(chroma_.begin(), chroma_.end(), value);
+  }
+
+ private:
+  std::vector<uint8_t> pixels_, chroma_;
+};
+
 template <typename Value>
 bool same_map(const std::vector<Value>& a, const std::vector<Value>& b, int width, const char* what) {
   if (a.size() != b.size()) {
@@ -294,15 +312,12 @@ Maps stream_rows(bsm_context* context, const bsm_config& config, const EncodedPa
     return status;
   };
   // The pushed rows lie in a buffer that changes after each push: the library has to copy them.
-  std::vector<uint8_t> left_input(width * 4), right_input(width * 4);
-  const size_t row_bytes = width * static_cast<size_t>(bytes_per_pixel(pair.left.format));
+  RowCopy left_input, right_input;
   for (int y = 0; y < rows; ++y) {
-    std::copy_n(pair.left.row(y), row_bytes, left_input.begin());
-    std::copy_n(pair.right.row(y), row_bytes, right_input.begin());
-    const bsm_row left{{left_input.data(), nullptr}}, right{{right_input.data(), nullptr}};
+    const bsm_row left = left_input.take(pair.left, y), right = right_input.take(pair.right, y);
     REQUIRE_EQ(bsm_push_row(context, &left, &right), BSM_OK);
-    std::fill(left_input.begin(), left_input.end(), uint8_t{0x5a});
-    std::fill(right_input.begin(), right_input.end(), uint8_t{0xc3});
+    left_input.fill(0x5a);
+    right_input.fill(0xc3);
     if (y >= delay) REQUIRE_EQ(pull(), BSM_OK);
     if (y + 1 < config.height) REQUIRE_EQ(pull(), BSM_NEED_ROWS);  // the last row finishes the stream
   }

@@ -42,7 +42,8 @@ std::vector<Color> colors_of(const ColorImage& image, bool gray) {
   for (size_t i = 0; i < image.rgb.size(); i += 3) {
     const uint8_t r = gray ? image.rgb[i + 1] : image.rgb[i], g = image.rgb[i + 1], b = gray ? g : image.rgb[i + 2];
     const Lab lab = lab_from_rgb(r, g, b);
-    colors.push_back({76 * r + 150 * g + 29 * b, lab.l, gray ? 0 : lab.a, gray ? 0 : lab.b});
+    const int luma = image.luma.empty() ? 76 * r + 150 * g + 29 * b : 255 * image.luma[i / 3];
+    colors.push_back({luma, lab.l, gray ? 0 : lab.a, gray ? 0 : lab.b});
   }
   return colors;
 }

@@ -268,6 +268,67 @@ bsm_context* not_a_context() {
   return reinterpret_cast<bsm_context*>(memory);
 }
 
+// A context for images with a chroma plane, of odd width and height. Every stride is the shortest that is allowed.
+struct ChromaWorld {
+  static constexpr int kWidth = 15, kHeight = 5;
+  explicit ChromaWorld(bsm_format format) {
+    config = config_for(kWidth, kHeight, format);
+    config.bits = 64;
+    config.num_disparities = 4;
+    Rng rng(seed());
+    pair = encode(make_pair(rng, Content::kShifted, kWidth, kHeight), format);
+    memory.resize(arena_bytes(config));
+    REQUIRE_EQ(bsm_open(&config, memory.data(), memory.size(), &context), BSM_OK);
+    frame = frame_for(config, pair, maps);
+  }
+  bsm_config config;
+  EncodedPair pair;
+  std::vector<uint8_t> memory;
+  Maps maps;
+  bsm_context* context = nullptr;
+  bsm_frame frame;
+};
+
+// Planes that are missing or too narrow. The call is made in a world of its own, which has to stay as it was.
+void add_chroma_mistakes(std::vector<Mistake>& list) {
+  using Change = std::function<void(bsm_image&)>;
+  const auto add = [&list](const char* what, bsm_status expected, bsm_format format, const Change& change) {
+    for (const bool left : {true, false}) {
+      const auto call = [=](World&) {
+        ChromaWorld world(format);
+        change(left ? world.frame.left : world.frame.right);
+        const std::vector<uint8_t> before = world.memory;
+        const bsm_status status = bsm_process(world.context, &world.frame);
+        CHECK(world.memory == before && std::count(world.maps.left.begin(), world.maps.left.end(), kUnwritten) ==
+                                            ChromaWorld::kWidth * ChromaWorld::kHeight);
+        if (expected == BSM_ERROR_NULL) {
+          bsm_row rows[2] = {world.pair.left.planes(0), world.pair.right.planes(0)};
+          rows[left ? 0 : 1].plane[1] = nullptr;
+          CHECK_EQ(bsm_push_row(world.context, &rows[0], &rows[1]), BSM_ERROR_NULL);
+          CHECK(world.memory == before);
+        }
+        (left ? world.frame.left : world.frame.right) = (left ? world.pair.left : world.pair.right).view();
+        CHECK_EQ(bsm_process(world.context, &world.frame), BSM_OK);
+        check_same(world.maps, match_frame(world.config, world.pair));
+        return status;
+      };
+      list.push_back({what, expected, call, {}});
+    }
+  };
+  for (const bsm_format format : {BSM_FORMAT_NV12, BSM_FORMAT_NV21}) {
+    add("no chroma plane", BSM_ERROR_NULL, format, [](bsm_image& image) { image.plane[1] = nullptr; });
+    for (const ptrdiff_t stride : {ChromaWorld::kWidth, -ChromaWorld::kWidth, 0}) {
+      add("chroma stride", BSM_ERROR_STRIDE, format, [stride](bsm_image& image) { image.stride[1] = stride; });
+    }
+    for (const ptrdiff_t stride : {ChromaWorld::kWidth - 1, 1 - ChromaWorld::kWidth}) {
+      add("stride of Y", BSM_ERROR_STRIDE, format, [stride](bsm_image& image) { image.stride[0] = stride; });
+    }
+  }
+  for (const ptrdiff_t stride : {2 * ChromaWorld::kWidth + 1, -2 * ChromaWorld::kWidth - 1}) {
+    add("stride of yuyv", BSM_ERROR_STRIDE, BSM_FORMAT_YUYV, [stride](bsm_image& image) { image.stride[0] = stride; });
+  }
+}
+
 std::vector<Mistake> use_mistakes() {
   std::vector<Mistake> list = {
       {"process without a context", BSM_ERROR_CONTEXT, [](World& w) { return bsm_process(not_a_context(), &w.frame); }, {}},
@@ -349,6 +410,7 @@ std::vector<Mistake> use_mistakes() {
       "right stride", [](World& w, ptrdiff_t s) { w.frame.right.stride[0] = s; }, World::kWidth * 3, 1);
   add_stride(
       "map stride", [](World& w, ptrdiff_t s) { w.frame.disparity.stride = s; }, World::kWidth * 2, 2);
+  add_chroma_mistakes(list);
   // The confidence map's stride, in a context that has one.
   list.push_back({"confidence stride", BSM_ERROR_STRIDE,
                   [](World& w) {

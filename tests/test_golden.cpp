@@ -182,6 +182,15 @@ TEST_CASE(other_parameters) {
   check_maps("256 rgb565", scene_config(256, BSM_FORMAT_RGB565, 0), encode(scene(0), BSM_FORMAT_RGB565));
 }
 
+TEST_CASE(yuv_formats) {
+  for (const bsm_format format : kYuvFormats) {
+    check_maps(std::string("256 ") + format_name(format), scene_config(256, format, 0), encode(scene(0), format));
+    bsm_config config = scene_config(128, format, 0);
+    REQUIRE_EQ(bsm_config_preset(&config, BSM_PRESET_FAST), BSM_OK);
+    check_maps(std::string("fast ") + format_name(format), config, encode(scene(0), format));
+  }
+}
+
 TEST_CASE(presets) {
   const struct {
     const char* name;

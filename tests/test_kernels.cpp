@@ -110,7 +110,7 @@ TEST_CASE(maps_are_the_same_for_every_choice) {
   Rng rng(seed());
   const std::vector<uint32_t> words = tiers();
   for (int i = 0; i < repeats(24); ++i) {
-    bsm_config config = config_for(rng.range(1, 180), rng.range(1, 24), kAllFormats[rng.range(0, 5)]);
+    bsm_config config = config_for(rng.range(1, 180), rng.range(1, 24), any_format(rng));
     randomize(rng, config, true);
     const Content content = kAllContents[rng.range(0, 5)];
     const EncodedPair pair =

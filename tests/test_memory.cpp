@@ -29,7 +29,7 @@ size_t scalar_bytes(const bsm_config& config) {
 }
 
 bsm_config random_config(Rng& rng, int width, int height, bool whole_frame = false) {
-  bsm_config config = config_for(width, height, kAllFormats[rng.range(0, 5)]);
+  bsm_config config = config_for(width, height, any_format(rng));
   randomize(rng, config, whole_frame);
   config.speckle = rng.one_in(2) ? 0 : rng.range(1, 100);
   config.max_jobs = rng.range(1, 3);
@@ -62,6 +62,53 @@ struct GuardedMap {
   ptrdiff_t stride;
   std::vector<int16_t> values;
   int16_t* top;
+};
+
+// The planes of an image, each between pages that may not be touched, and read-only.
+class GuardedImage {
+ public:
+  GuardedImage(const PixelImage& image, GuardedBuffer::Edge edge)
+      : pixels_(image.bytes.size(), edge), chroma_(image.chroma.size(), edge) {
+    view_ = image.view();
+    view_.plane[0] = place(image.bytes, pixels_);
+    if (!image.chroma.empty()) view_.plane[1] = place(image.chroma, chroma_);
+  }
+  const bsm_image& view() const { return view_; }
+
+ private:
+  static const uint8_t* place(const std::vector<uint8_t>& plane, GuardedBuffer& buffer) {
+    std::copy(plane.begin(), plane.end(), buffer.data());
+    buffer.make_read_only();
+    return buffer.data();
+  }
+  GuardedBuffer pixels_, chroma_;
+  bsm_image view_;
+};
+
+// The planes of an image at odd addresses, bottom-up when `upward`: the last row first in memory.
+class PlacedImage {
+ public:
+  PlacedImage(const PixelImage& image, bool upward, bool chroma_upward) {
+    view_ = image.view();
+    place(image.bytes, upward, 0, pixels_);
+    if (!image.chroma.empty()) place(image.chroma, chroma_upward, 1, chroma_);
+  }
+  const bsm_image& view() const { return view_; }
+  bool operator==(const PlacedImage& other) const { return pixels_ == other.pixels_ && chroma_ == other.chroma_; }
+
+ private:
+  void place(const std::vector<uint8_t>& plane, bool upward, size_t index, std::vector<uint8_t>& memory) {
+    memory.assign(plane.size() + 1, 0);
+    ptrdiff_t& stride = view_.stride[index];
+    const ptrdiff_t rows = static_cast<ptrdiff_t>(plane.size()) / stride;
+    for (ptrdiff_t y = 0; y < rows; ++y) {
+      std::copy_n(plane.begin() + y * stride, stride, memory.begin() + 1 + (upward ? rows - 1 - y : y) * stride);
+    }
+    view_.plane[index] = memory.data() + 1 + (upward ? (rows - 1) * stride : 0);
+    if (upward) stride = -stride;
+  }
+  std::vector<uint8_t> pixels_, chroma_;
+  bsm_image view_;
 };
 
 }  // namespace
@@ -193,17 +240,14 @@ TEST_CASE(images_at_page_edges_are_not_read_beyond) {
     const Maps expected = match_frame(config, pair);
     const auto edge = rng.one_in(2) ? GuardedBuffer::Edge::kEnd : GuardedBuffer::Edge::kBegin;
     const size_t pixels = static_cast<size_t>(config.width) * static_cast<size_t>(config.height);
-    GuardedBuffer left(pair.left.bytes.size(), edge), right(pair.right.bytes.size(), edge), arena(arena_bytes(config), edge);
+    const GuardedImage left(pair.left, edge), right(pair.right, edge);
+    GuardedBuffer arena(arena_bytes(config), edge);
     GuardedBuffer map(pixels * 2, edge), right_map(pixels * 2, edge), confidence(pixels, edge);
-    std::copy(pair.left.bytes.begin(), pair.left.bytes.end(), left.data());
-    std::copy(pair.right.bytes.begin(), pair.right.bytes.end(), right.data());
-    left.make_read_only();
-    right.make_read_only();
     bsm_context* context = nullptr;
     REQUIRE_EQ(bsm_open(&config, arena.data(), arena.size(), &context), BSM_OK);
     bsm_frame frame{};
-    frame.left = {{left.data(), nullptr}, {pair.left.stride, 0}};
-    frame.right = {{right.data(), nullptr}, {pair.right.stride, 0}};
+    frame.left = left.view();
+    frame.right = right.view();
     const ptrdiff_t map_stride = static_cast<ptrdiff_t>(config.width) * 2;
     frame.disparity = {reinterpret_cast<int16_t*>(map.data()), map_stride};
     if (config.right_map) frame.right_disparity = {reinterpret_cast<int16_t*>(right_map.data()), map_stride};
@@ -232,9 +276,11 @@ TEST_CASE(rows_at_page_edges_are_not_read_beyond) {
     const EncodedPair pair =
         encode(make_pair(rng, Content::kShifted, config.width, config.height), static_cast<bsm_format>(config.format));
     const Maps expected = match_frame(config, pair);
-    const size_t row_bytes = static_cast<size_t>(pair.left.stride), width = static_cast<size_t>(config.width);
+    const size_t row_size = static_cast<size_t>(pair.left.stride), width = static_cast<size_t>(config.width);
+    const size_t chroma_size = static_cast<size_t>(pair.left.chroma_stride);
     const auto edge = rng.one_in(2) ? GuardedBuffer::Edge::kEnd : GuardedBuffer::Edge::kBegin;
-    GuardedBuffer left(row_bytes, edge), right(row_bytes, edge), out(width * 2, edge), right_out(width * 2, edge);
+    GuardedBuffer left(row_size, edge), right(row_size, edge), out(width * 2, edge), right_out(width * 2, edge);
+    GuardedBuffer left_chroma(chroma_size, edge), right_chroma(chroma_size, edge);
     Arena arena(arena_bytes(config));
     bsm_context* context = nullptr;
     REQUIRE_EQ(bsm_open(&config, arena.data(), arena.size(), &context), BSM_OK);
@@ -242,9 +288,11 @@ TEST_CASE(rows_at_page_edges_are_not_read_beyond) {
     int16_t* row = reinterpret_cast<int16_t*>(out.data());
     int16_t* right_row = config.right_map ? reinterpret_cast<int16_t*>(right_out.data()) : nullptr;
     for (int y = 0; y < config.height; ++y) {
-      std::copy_n(pair.left.row(y), row_bytes, left.data());
-      std::copy_n(pair.right.row(y), row_bytes, right.data());
-      const bsm_row l{{left.data(), nullptr}}, r{{right.data(), nullptr}};
+      std::copy_n(pair.left.row(y), row_size, left.data());
+      std::copy_n(pair.right.row(y), row_size, right.data());
+      if (chroma_size != 0) std::copy_n(pair.left.chroma_row(y), chroma_size, left_chroma.data());
+      if (chroma_size != 0) std::copy_n(pair.right.chroma_row(y), chroma_size, right_chroma.data());
+      const bsm_row l{{left.data(), left_chroma.data()}}, r{{right.data(), right_chroma.data()}};
       REQUIRE_EQ(bsm_push_row(context, &l, &r), BSM_OK);
       while (bsm_pull_row(context, row, right_row, nullptr) == BSM_OK) map.insert(map.end(), row, row + width);
     }
@@ -262,27 +310,12 @@ TEST_CASE(strides_of_both_signs_and_padding) {
 
     const int padding = rng.range(0, 9);
     const bool left_up = rng.one_in(2), right_up = rng.one_in(2), map_up = rng.one_in(2);
+    const bool chroma_up = rng.one_in(2);
     const Scope scope(describe(config) + " padding=" + text_of(padding) + " upward=" + text_of(left_up) + text_of(right_up) +
-                      text_of(map_up));
-    const auto flip = [](ColorImage image) {
-      const size_t row = static_cast<size_t>(image.width) * 3;
-      for (int y = 0; y < image.height / 2; ++y) {
-        std::swap_ranges(image.at(0, y), image.at(0, y) + row, image.at(0, image.height - 1 - y));
-      }
-      return image;
-    };
-    // Odd starts, so that no pixel is aligned.
-    const auto place = [](const PixelImage& image, std::vector<uint8_t>& memory) {
-      memory.assign(image.bytes.size() + 1, 0);
-      std::copy(image.bytes.begin(), image.bytes.end(), memory.begin() + 1);
-      return memory.data() + 1;
-    };
-    std::vector<uint8_t> left_memory, right_memory;
-    const PixelImage left = encode(left_up ? flip(colors.left) : colors.left, format, padding);
-    const PixelImage right = encode(right_up ? flip(colors.right) : colors.right, format, padding + 3);
-    const uint8_t* left_data = place(left, left_memory);
-    const uint8_t* right_data = place(right, right_memory);
-    const std::vector<uint8_t> left_before = left_memory, right_before = right_memory;
+                      text_of(map_up) + text_of(chroma_up));
+    const PixelImage left_pixels = encode(colors.left, format, padding);
+    const PixelImage right_pixels = encode(colors.right, format, padding + 3);
+    const PlacedImage left(left_pixels, left_up, chroma_up), right(right_pixels, right_up, !chroma_up);
 
     GuardedMap map(config.width, config.height, config.width + rng.range(0, 5), map_up);
     GuardedMap right_map(config.width, config.height, config.width + rng.range(0, 5), !map_up);
@@ -291,10 +324,8 @@ TEST_CASE(strides_of_both_signs_and_padding) {
     REQUIRE_EQ(bsm_open(&config, arena.data(), arena.size(), &context), BSM_OK);
     const ptrdiff_t last = config.height - 1;
     bsm_frame frame{};
-    frame.left = left_up ? bsm_image{{left_data + last * left.stride, nullptr}, {-left.stride, 0}}
-                         : bsm_image{{left_data, nullptr}, {left.stride, 0}};
-    frame.right = right_up ? bsm_image{{right_data + last * right.stride, nullptr}, {-right.stride, 0}}
-                           : bsm_image{{right_data, nullptr}, {right.stride, 0}};
+    frame.left = left.view();
+    frame.right = right.view();
     frame.disparity = map.map();
     if (config.right_map) frame.right_disparity = right_map.map();
     const ptrdiff_t confidence_stride = config.width + rng.range(0, 5);
@@ -315,7 +346,7 @@ TEST_CASE(strides_of_both_signs_and_padding) {
       CHECK(std::equal(row, row + config.width, expected_row));
       CHECK(std::all_of(row + config.width, row + confidence_stride, [](uint8_t v) { return v == 0x5a; }));
     }
-    CHECK(left_memory == left_before && right_memory == right_before);
+    CHECK(left == PlacedImage(left_pixels, left_up, chroma_up) && right == PlacedImage(right_pixels, right_up, !chroma_up));
   }
 }
 

@@ -14,8 +14,9 @@ namespace {
 
 void compare(bsm_config config, const ColorPair& colors) {
   config.right_map = 1;
-  const ModelMaps model = run_model(config, colors);
-  const EncodedPair pair = encode(colors, static_cast<bsm_format>(config.format));
+  const bsm_format format = static_cast<bsm_format>(config.format);
+  const EncodedPair pair = encode(colors, format);
+  const ModelMaps model = run_model(config, is_yuv(format) ? decode(pair) : colors);
   for (const bsm_stage stage : kStages) {
     config.stage = stage;
     for (const uint32_t isa_mask : isa_masks()) {
@@ -78,6 +79,8 @@ TEST_CASE(every_format) {
     config.bits = 192;
     config.num_disparities = 9;
     compare(config, to_rgb565_colors(make_pair(rng, Content::kShifted, 23, 14)));
+    config.width = 10, config.height = 9;
+    compare(config, to_rgb565_colors(make_pair(rng, Content::kNoise, 10, 9)));
   }
 }
 

@@ -56,7 +56,7 @@ Outputs stream_everything(const bsm_config& config, const EncodedPair& pair) {
     return status;
   };
   for (int y = 0; y < pair.left.height; ++y) {
-    const bsm_row left{{pair.left.row(y), nullptr}}, right{{pair.right.row(y), nullptr}};
+    const bsm_row left = pair.left.planes(y), right = pair.right.planes(y);
     REQUIRE_EQ(bsm_push_row(context, &left, &right), BSM_OK);
     pull();
   }

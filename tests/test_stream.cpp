@@ -146,7 +146,7 @@ TEST_CASE(reset_drops_rows_in_flight) {
     REQUIRE_EQ(bsm_open(&config, arena.data(), arena.size(), &context), BSM_OK);
     std::vector<int16_t> left(static_cast<size_t>(width)), right(static_cast<size_t>(width));
     for (int y = 0; y < dropped; ++y) {
-      const bsm_row l{{noise.left.row(y), nullptr}}, r{{noise.right.row(y), nullptr}};
+      const bsm_row l = noise.left.planes(y), r = noise.right.planes(y);
       REQUIRE_EQ(bsm_push_row(context, &l, &r), BSM_OK);
       if (y + 1 < dropped)
         CHECK(bsm_pull_row(context, left.data(), config.right_map ? right.data() : nullptr, nullptr) >= BSM_OK);
@@ -196,7 +196,7 @@ TEST_CASE(streaming_protocol) {
   REQUIRE_EQ(bsm_open(&config, arena.data(), arena.size(), &context), BSM_OK);
   std::vector<int16_t> row(static_cast<size_t>(config.width));
   const auto push = [&](int y) {
-    const bsm_row left{{pair.left.row(y), nullptr}}, right{{pair.right.row(y), nullptr}};
+    const bsm_row left = pair.left.planes(y), right = pair.right.planes(y);
     return bsm_push_row(context, &left, &right);
   };
   const auto pull = [&] { return bsm_pull_row(context, row.data(), nullptr, nullptr); };
@@ -239,7 +239,7 @@ TEST_CASE(a_row_comes_without_the_right_map) {
   REQUIRE_EQ(bsm_open(&config, arena.data(), arena.size(), &context), BSM_OK);
   std::vector<int16_t> left, row(static_cast<size_t>(config.width));
   for (int y = 0; y < config.height; ++y) {
-    const bsm_row l{{pair.left.row(y), nullptr}}, r{{pair.right.row(y), nullptr}};
+    const bsm_row l = pair.left.planes(y), r = pair.right.planes(y);
     REQUIRE_EQ(bsm_push_row(context, &l, &r), BSM_OK);
     while (bsm_pull_row(context, row.data(), nullptr, nullptr) == BSM_OK) left.insert(left.end(), row.begin(), row.end());
   }

@@ -14,6 +14,7 @@
 #include "core/weights.h"
 #include "simd/kernels.h"
 #include "simd/lab.h"
+#include "simd/yuv.h"
 
 using namespace bsm::test;
 
@@ -164,6 +165,33 @@ TEST_CASE(luma_is_the_undivided_sum) {
     }
   }
   CHECK_EQ(bsm::luma_from_rgb(255, 255, 255), 65025);
+}
+
+TEST_CASE(rgb_of_every_yuv_color) {
+  const int step = repeats(100) >= 100 ? 1 : 5;
+  double worst = 0;
+  for (int u = 0; u < 256; ++u) {
+    for (int v = 0; v < 256; v += step) {
+      // BT.601: R weighs 0.299 of Y and B 0.114; B - Y is 1.772 (U - 128), R - Y is 1.402 (V - 128).
+      const double red = 2 * (1 - 0.299) * (v - 128), blue = 2 * (1 - 0.114) * (u - 128);
+      const double exact[3] = {red, -(0.299 * red + 0.114 * blue) / 0.587, blue};
+      const bsm::ChromaTerms terms = bsm::chroma_terms(static_cast<uint8_t>(u), static_cast<uint8_t>(v));
+      for (int y = 0; y < 256; ++y) {
+        const uint8_t luma = static_cast<uint8_t>(y);
+        const int channels[3] = {bsm::channel_from_yuv(luma, terms.r), bsm::channel_from_yuv(luma, terms.g),
+                                 bsm::channel_from_yuv(luma, terms.b)};
+        for (int c = 0; c < 3; ++c) worst = std::max(worst, std::fabs(channels[c] - std::clamp(y + exact[c], 0.0, 255.0)));
+      }
+    }
+  }
+  std::printf("  largest RGB error: %.5f\n", worst);
+  CHECK_LE(worst, 0.5 + 0.001);
+  for (int y = 0; y < 256; ++y) {
+    const bsm::ChromaTerms none = bsm::chroma_terms(128, 128);
+    for (const int32_t term : {none.r, none.g, none.b}) CHECK_EQ(bsm::channel_from_yuv(static_cast<uint8_t>(y), term), y);
+    CHECK_EQ(bsm::luma_from_y(static_cast<uint8_t>(y)),
+             bsm::luma_from_rgb(static_cast<uint8_t>(y), static_cast<uint8_t>(y), static_cast<uint8_t>(y)));
+  }
 }
 
 TEST_CASE(vote_weights_are_exponentials) {

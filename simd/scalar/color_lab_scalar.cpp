@@ -3,6 +3,7 @@
 #include "simd/build.h"
 #include "simd/kernels.h"
 #include "simd/lab.h"
+#include "simd/yuv.h"
 
 namespace bsm {
 namespace {
@@ -29,16 +30,45 @@ struct Packed565 {
   }
 };
 
+// Where Y of pixel x and the chroma of the pixels x and x + 1 lie, for even x.
+template <int kU, int kV>
+struct SemiPlanar {
+  static constexpr int32_t step = 1, u = kU, v = kV;
+  static const uint8_t* chroma(const ColorLabArgs& args, int32_t x) { return args.chroma + x; }
+};
+
+struct Yuyv {
+  static constexpr int32_t step = 2, u = 1, v = 3;
+  static const uint8_t* chroma(const ColorLabArgs& args, int32_t x) { return args.source + ptrdiff_t{x} * step; }
+};
+
+void store_lab(const ColorLabArgs& args, int32_t x, Rgb pixel) {
+  const Lab lab = lab_from_rgb(pixel.r, pixel.g, pixel.b);
+  args.lab[x] = lab.l;
+  args.lab[args.plane_stride + x] = lab.a;
+  args.lab[2 * args.plane_stride + x] = lab.b;
+}
+
 template <class Format>
 void convert_color(const ColorLabArgs& args) {
   for (int32_t x = 0; x < args.width; ++x) {
     const Rgb pixel = Format::load(args.source + ptrdiff_t{x} * Format::bytes);
     if (args.luma != nullptr) args.luma[x] = luma_from_rgb(pixel.r, pixel.g, pixel.b);
-    if (args.lab != nullptr) {
-      const Lab lab = lab_from_rgb(pixel.r, pixel.g, pixel.b);
-      args.lab[x] = lab.l;
-      args.lab[args.plane_stride + x] = lab.a;
-      args.lab[2 * args.plane_stride + x] = lab.b;
+    if (args.lab != nullptr) store_lab(args, x, pixel);
+  }
+}
+
+template <class Format>
+void convert_yuv(const ColorLabArgs& args) {
+  for (int32_t begin = 0; begin < args.width; begin += 2) {
+    const uint8_t* chroma = Format::chroma(args, begin);
+    const ChromaTerms terms = chroma_terms(chroma[Format::u], chroma[Format::v]);
+    const int32_t end = begin + 1 < args.width ? begin + 2 : args.width;
+    for (int32_t x = begin; x < end; ++x) {
+      const uint8_t y = args.source[ptrdiff_t{x} * Format::step];
+      if (args.luma != nullptr) args.luma[x] = luma_from_y(y);
+      if (args.lab == nullptr) continue;
+      store_lab(args, x, Rgb{channel_from_yuv(y, terms.r), channel_from_yuv(y, terms.g), channel_from_yuv(y, terms.b)});
     }
   }
 }
@@ -59,7 +89,7 @@ constexpr GrayTable kGray = make_gray_table();
 void convert_gray(const ColorLabArgs& args) {
   for (int32_t x = 0; x < args.width; ++x) {
     const uint8_t value = args.source[x];
-    if (args.luma != nullptr) args.luma[x] = luma_from_rgb(value, value, value);
+    if (args.luma != nullptr) args.luma[x] = luma_from_y(value);
     if (args.lab != nullptr) args.lab[x] = kGray.l[value];
   }
 }
@@ -83,6 +113,12 @@ void color_lab_scalar(const ColorLabArgs& args) {
       return convert_color<Interleaved<4, 0, 2>>(args);
     case BSM_FORMAT_BGRA32:
       return convert_color<Interleaved<4, 2, 0>>(args);
+    case BSM_FORMAT_NV12:
+      return convert_yuv<SemiPlanar<0, 1>>(args);
+    case BSM_FORMAT_NV21:
+      return convert_yuv<SemiPlanar<1, 0>>(args);
+    case BSM_FORMAT_YUYV:
+      return convert_yuv<Yuyv>(args);
     default:
       return convert_color<Packed565>(args);
   }

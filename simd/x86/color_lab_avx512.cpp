@@ -8,6 +8,7 @@
 #include "bsm/bsm.h"
 #include "simd/kernels.h"
 #include "simd/lab.h"
+#include "simd/yuv.h"
 
 namespace bsm {
 namespace {
@@ -65,6 +66,52 @@ struct Gray {
   static Rgb load(const uint8_t* source, int32_t pixels) {
     const __m512i value = _mm512_cvtepu8_epi32(_mm_maskz_loadu_epi8(static_cast<__mmask16>(first_bytes(pixels)), source));
     return Rgb{value, value, value};
+  }
+};
+
+// channel_from_yuv of simd/yuv.h.
+inline __m512i add_chroma(__m512i y, __m512i term) {
+  const __m512i value = _mm512_add_epi32(_mm512_slli_epi32(y, 16), term);
+  return _mm512_srli_epi32(_mm512_min_epi32(_mm512_max_epi32(value, _mm512_setzero_si512()), set(0xffffff)), 16);
+}
+
+// y, u and v of each lane, as 32-bit values.
+inline Rgb rgb_from_yuv(__m512i y, __m512i u, __m512i v) {
+  const __m512i cu = _mm512_sub_epi32(u, set(128));
+  const __m512i cv = _mm512_sub_epi32(v, set(128));
+  const __m512i half = set(1 << 15);
+  const __m512i r = _mm512_add_epi32(_mm512_mullo_epi32(cv, set(kRedOfV)), half);
+  const __m512i g = _mm512_sub_epi32(
+      half, _mm512_add_epi32(_mm512_mullo_epi32(cu, set(kGreenOfU)), _mm512_mullo_epi32(cv, set(kGreenOfV))));
+  const __m512i b = _mm512_add_epi32(_mm512_mullo_epi32(cu, set(kBlueOfU)), half);
+  return Rgb{add_chroma(y, r), add_chroma(y, g), add_chroma(y, b)};
+}
+
+// Y of sixteen pixels and the chroma that each shares with its neighbour.
+struct Yuv {
+  __m512i y, u, v;
+};
+
+template <int32_t kU, int32_t kV>
+struct SemiPlanar {
+  static Yuv load(const ColorLabArgs& args, int32_t x, int32_t pixels) {
+    const __mmask16 kept = static_cast<__mmask16>(first_bytes(pixels));
+    const __mmask16 pairs = static_cast<__mmask16>(first_bytes(pixels + (pixels & 1)));
+    const __m512i y = _mm512_cvtepu8_epi32(_mm_maskz_loadu_epi8(kept, args.source + x));
+    const __m512i chroma = _mm512_cvtepu8_epi32(_mm_maskz_loadu_epi8(pairs, args.chroma + x));
+    return Yuv{y, _mm512_shuffle_epi32(chroma, kU == 0 ? _MM_PERM_CCAA : _MM_PERM_DDBB),
+               _mm512_shuffle_epi32(chroma, kV == 0 ? _MM_PERM_CCAA : _MM_PERM_DDBB)};
+  }
+};
+
+struct Yuyv {
+  static Yuv load(const ColorLabArgs& args, int32_t x, int32_t pixels) {
+    const __mmask16 kept = static_cast<__mmask16>(first_bytes(pixels + (pixels & 1)));
+    const __m256i packed = _mm256_maskz_loadu_epi16(kept, args.source + ptrdiff_t{2} * x);
+    const __m512i pixel = _mm512_cvtepu16_epi32(packed);  // Y and, in even lanes, U, in odd ones V
+    const __m512i chroma = _mm512_srli_epi32(pixel, 8);
+    return Yuv{_mm512_and_si512(pixel, set(255)), _mm512_shuffle_epi32(chroma, _MM_PERM_CCAA),
+               _mm512_shuffle_epi32(chroma, _MM_PERM_DDBB)};
   }
 };
 
@@ -127,6 +174,19 @@ void convert(const ColorLabArgs& args) {
   }
 }
 
+template <class Format>
+void convert_yuv(const ColorLabArgs& args) {
+  for (int32_t x = 0; x < args.width; x += kPixelsAtOnce) {
+    const int32_t pixels = args.width - x < kPixelsAtOnce ? args.width - x : kPixelsAtOnce;
+    const __mmask16 kept = static_cast<__mmask16>(first_bytes(pixels));
+    const Yuv yuv = Format::load(args, x, pixels);
+    if (args.luma != nullptr) {
+      _mm512_mask_cvtepi32_storeu_epi16(args.luma + x, kept, _mm512_mullo_epi32(yuv.y, set(255)));
+    }
+    if (args.lab != nullptr) store_lab(args, rgb_from_yuv(yuv.y, yuv.u, yuv.v), kept, args.lab + x);
+  }
+}
+
 }  // namespace
 
 uint64_t color_lab_avx512_scratch(const KernelShape&) {
@@ -145,6 +205,12 @@ void color_lab_avx512(const ColorLabArgs& args) {
       return convert<Interleaved<4, 0, 2>>(args);
     case BSM_FORMAT_BGRA32:
       return convert<Interleaved<4, 2, 0>>(args);
+    case BSM_FORMAT_NV12:
+      return convert_yuv<SemiPlanar<0, 1>>(args);
+    case BSM_FORMAT_NV21:
+      return convert_yuv<SemiPlanar<1, 0>>(args);
+    case BSM_FORMAT_YUYV:
+      return convert_yuv<Yuyv>(args);
     default:
       return convert<Packed565>(args);
   }

@@ -132,14 +132,21 @@ typedef enum bsm_preset {
   BSM_PRESET_BEST = 3      /* sgm, 8 paths, 1024 bits; whole frames only */
 } bsm_preset;
 
-/* Memory layout of an input pixel. Names give the order of bytes in memory. */
+/* Memory layout of the input. Names give the order of bytes in memory. With YUV, two pixels side by side (nv12, nv21: two
+ * by two) share their chroma, the nearest sample; an image of odd width or height ends with a sample that only the pixels
+ * inside use. Y alone is the luma that descriptors compare, as in gray8. Colour is BT.601 in full range, as the cameras of
+ * Android deliver it (JFIF); the limited range that V4L2 has by default is taken as it is, a picture of 14 % less contrast:
+ * nothing is clipped, and U = V = 128 matches as gray8 of the plane Y does. */
 typedef enum bsm_format {
   BSM_FORMAT_GRAY8 = 0,  /* 1 byte: luma */
   BSM_FORMAT_RGB24 = 1,  /* 3 bytes: R G B (sRGB) */
   BSM_FORMAT_BGR24 = 2,  /* 3 bytes: B G R */
   BSM_FORMAT_RGBA32 = 3, /* 4 bytes: R G B A; A is ignored */
   BSM_FORMAT_BGRA32 = 4, /* 4 bytes: B G R A; A is ignored */
-  BSM_FORMAT_RGB565 = 5  /* 2 bytes, little-endian: R in bits 15..11, G in 10..5, B in 4..0 */
+  BSM_FORMAT_RGB565 = 5, /* 2 bytes, little-endian: R in bits 15..11, G in 10..5, B in 4..0 */
+  BSM_FORMAT_NV12 = 6,   /* plane 0: 1 byte Y; plane 1: a row of pairs U V for two rows of pixels */
+  BSM_FORMAT_NV21 = 7,   /* plane 0: 1 byte Y; plane 1: a row of pairs V U for two rows of pixels */
+  BSM_FORMAT_YUYV = 8    /* 4 bytes for two pixels: Y0 U Y1 V */
 } bsm_format;
 
 /* Stages that have kernels, for bsm_kernel_name. */
@@ -212,13 +219,17 @@ typedef struct bsm_config {
 } bsm_config;
 
 /* An image in the caller's memory, never written. Row y of plane i begins stride[i] * y bytes after plane[i]; strides are in
- * bytes and may be negative (bottom-up images), no pointer needs any alignment. Formats of one plane ignore plane[1]. */
+ * bytes and may be negative (bottom-up images), no pointer needs any alignment.
+ * Plane 0 has height rows of width pixels; yuyv rounds the width up to even. Plane 1 of nv12 and nv21 has (height + 1) / 2
+ * rows of (width + 1) / 2 pairs; pixel (x, y) takes pair x / 2 of row y / 2. Other formats ignore plane[1].
+ * Exactly these bytes are read: none before, none after, none between the rows. */
 typedef struct bsm_image {
   const void* plane[2];
   ptrdiff_t stride[2];
 } bsm_image;
 
-/* One row of an image; planes as in bsm_image. */
+/* One row of an image; planes as in bsm_image. plane[1] of nv12 and nv21 is the chroma row that belongs to this row: rows 2
+ * k and 2 k + 1 are pushed with the same one. */
 typedef struct bsm_row {
   const void* plane[2];
 } bsm_row;

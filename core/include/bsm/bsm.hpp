@@ -30,14 +30,14 @@ struct Config : bsm_config {
   int16_t invalid_disparity() const { return bsm_invalid_disparity(this); }
 };
 
-// Image of one plane: pixels at data, rows `stride` bytes apart.
-inline bsm_image image(const void* data, ptrdiff_t stride) {
-  return bsm_image{{data, nullptr}, {stride, 0}};
+// Image: pixels at data, rows `stride` bytes apart; formats of two planes have the second at chroma.
+inline bsm_image image(const void* data, ptrdiff_t stride, const void* chroma = nullptr, ptrdiff_t chroma_stride = 0) {
+  return bsm_image{{data, chroma}, {stride, chroma_stride}};
 }
 
-// Row of one plane.
-inline bsm_row row(const void* data) {
-  return bsm_row{{data, nullptr}};
+// Row of an image.
+inline bsm_row row(const void* data, const void* chroma = nullptr) {
+  return bsm_row{{data, chroma}};
 }
 
 // A context in the caller's arena. Copies refer to the same context; nothing is freed.
