@@ -4,18 +4,6 @@
 namespace bsm {
 namespace {
 
-// weight[k] = full exp(-k / steps), rounded; ratio = exp(-1 / steps) 2^32.
-template <class Table, class Weight>
-constexpr Table make_weights(uint64_t full, uint64_t ratio) {
-  Table table{};
-  uint64_t value = full << 16;
-  for (Weight& weight : table.weight) {
-    weight = static_cast<Weight>((value + (1u << 15)) >> 16);
-    value = (value * ratio + (uint64_t{1} << 31)) >> 32;
-  }
-  return table;
-}
-
 // Largest r with r * r <= value.
 uint32_t square_root(uint32_t value) {
   uint32_t root = 0;
@@ -32,6 +20,18 @@ uint32_t length(int32_t dx, int32_t dy) {
 }
 
 }  // namespace
+
+// weight[k] = full exp(-k / steps), rounded; ratio = exp(-1 / steps) 2^32.
+template <class Table, class Weight>
+static constexpr Table make_weights(uint64_t full, uint64_t ratio) {
+  Table table{};
+  uint64_t value = full << 16;
+  for (Weight& weight : table.weight) {
+    weight = static_cast<Weight>((value + (1u << 15)) >> 16);
+    value = (value * ratio + (uint64_t{1} << 31)) >> 32;
+  }
+  return table;
+}
 
 constexpr VoteWeights kVoteWeights = make_weights<VoteWeights, uint16_t>(65535, 4228380000);
 constexpr SmoothWeights kSmoothWeights = make_weights<SmoothWeights, uint8_t>(255, 4034748382);

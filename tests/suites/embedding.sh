@@ -45,6 +45,51 @@ has_soname() { readelf -d "$1" | grep -F "Library soname: [$2]"; }
 
 is_empty_folder() { [ -z "$(find "$1" -mindepth 1 2> /dev/null)" ]; }
 
+# run_amalgamation FOLDER EMULATOR ISA...: what the two-file library made of each instruction set's flags computes the hashes of
+# all builds, with the kernels of that set; slow runs compute those of the presets alone.
+run_amalgamation() {
+  local folder=$1 emulator=$2 isa cases
+  shift 2
+  for isa in "$@"; do
+    # shellcheck disable=SC2086  # the emulator's options are words of their own
+    expect "amalgamation $isa, its kernels run" env "BSM_EXPECT_ISA=$isa" $emulator "$folder/c99_$isa"
+    cases=
+    if [ -n "$emulator" ] || [ "$isa" = scalar ]; then cases=presets; fi
+    # shellcheck disable=SC2086
+    expect "amalgamation $isa, golden hashes" $emulator "$folder/golden_$isa" --filter "$cases"
+  done
+}
+
+# The amalgamation for this machine, and for AArch64 under emulation.
+check_amalgamation() {
+  local features isa machine=$root/build/arm64 isas=()
+  expect "amalgamation, written" cmake --build "$native" --target bsm_amalgamation || return
+  if expect "amalgamation, compiles under all flags" build "$here/amalgamation" "$out/amalgamation" all "-DBUILD=$native"; then
+    features=$("$native/platform/host/bsm" info | sed -n 's/^CPU features: //p')
+    for isa in scalar sse42 avx2 avx512 neon; do
+      if [ ! -x "$out/amalgamation/c99_$isa" ]; then
+        continue # another machine's
+      elif [ $isa != scalar ] && [[ " $features " != *" ${isa/avx512/avx512vpopcntdq} "* ]]; then
+        skipped+=("embedding amalgamation $isa: this machine lacks it")
+      else
+        isas+=("$isa")
+      fi
+    done
+    run_amalgamation "$out/amalgamation" "" "${isas[@]}"
+  fi
+
+  if [ "$(uname -m)" = aarch64 ]; then
+    return
+  elif ! require_tools aarch64-linux-gnu-g++ qemu-aarch64 > /dev/null 2>&1; then
+    skipped+=("embedding amalgamation for AArch64: aarch64-linux-gnu-g++ or qemu-aarch64 is not installed and cannot be installed here")
+  elif expect "amalgamation for AArch64, objects of the tests" build "$root" "$machine" test_golden \
+    "-DCMAKE_TOOLCHAIN_FILE=$root/toolchains/aarch64-linux-gnu.cmake" -DCMAKE_BUILD_TYPE=Release -DBSM_WERROR=ON -DBSM_BUILD_BENCH=OFF &&
+    expect "amalgamation for AArch64, compiles" build "$here/amalgamation" "$out/amalgamation-arm64" all "-DBUILD=$machine" \
+      "-DAMALGAMATION=$native/amalgamation" "-DCMAKE_TOOLCHAIN_FILE=$root/toolchains/aarch64-linux-gnu.cmake"; then
+    run_amalgamation "$out/amalgamation-arm64" "qemu-aarch64 -L /usr/aarch64-linux-gnu" neon
+  fi
+}
+
 run_embedding() {
   local here=$root/tests/embedding out=$root/build/embedding native=$root/build/tests version library
   version=$(sed -nE 's/^#define BSM_VERSION_[A-Z]+ ([0-9]+)$/\1/p' "$root/core/include/bsm/bsm.h" | paste -sd .)
@@ -77,4 +122,6 @@ run_embedding() {
     fi
     installed_tree shared "$out/shared" "$version"
   fi
+
+  check_amalgamation
 }
