@@ -25,7 +25,7 @@ suites=native
 for option in "$@"; do
   case $option in
     --asan) suites=asan ;;
-    --all) suites="native tiers arm64 arm32 embedding options clang asan fuzz" ;;
+    --all) suites="native tiers arm64 arm32 embedding options cortexm clang asan fuzz" ;;
     -h | --help)
       usage
       exit 0
@@ -172,6 +172,16 @@ build() {
   shift 3
   # shellcheck disable=SC2086  # targets are words of their own
   cmake -S "$source" -B "$folder" "$@" && cmake --build "$folder" --parallel "$jobs" --target $targets
+}
+
+# gray_pair FOLDER: left.pgm and right.pgm of the demo's left.ppm and right.ppm. Their green stands for gray, as in golden.inc.
+gray_pair() {
+  local view width height
+  for view in left right; do
+    read -r width height < <(sed -n 2p "$1/$view.ppm") &&
+      { printf 'P5\n%d %d\n255\n' "$width" "$height" && tail -c "$((3 * width * height))" "$1/$view.ppm" |
+        od -An -v -tu1 -w3 | LC_ALL=C awk '{ printf "%c", $2 }'; } > "$1/$view.pgm" || return
+  done
 }
 
 # emulate SUITE BUILD CPU ISA EMULATOR...: the tests of kernels and hashes on an emulated CPU, which has to choose the kernels of

@@ -1,10 +1,10 @@
-// Matches the synthetic scene, rendered on the board, with any configuration, and prints one line: the hash of the map, the
-// kernels' instruction set, and what matching took. Tests and measure.sh run it; the costs hold under qemu's -icount
+// Matches the synthetic scene, rendered on the board, with any configuration, and prints one line: the instruction set of
+// the kernels, the hash of the map, and what matching took. Tests and measure.sh run it; the costs hold under qemu's -icount
 // shift=0.
 //
 // Arguments (by semihosting), in the order they are to take effect: width=, height=, disparities=, format=gray8|rgb24,
-// preset=paper|fast|balanced, then any of the fields below; frame=1 for bsm_process instead of rows, map=FILE.pgm to write
-// the map, fault=1 to read a misaligned word, which has to fault on ARMv6-M.
+// preset=paper|fast|balanced, then any of the fields below; scalar=1 for scalar kernels, frame=1 for bsm_process instead of
+// rows, map=FILE.pgm to write the map, fault=1 to read a misaligned word, which has to fault on ARMv6-M.
 #include <stddef.h>
 #include <stdint.h>
 
@@ -19,8 +19,10 @@ using namespace bsm::cortexm;
 
 namespace {
 
-// The arena, and behind it what the run itself keeps.
+// The arena; whole frames lie behind it.
 alignas(64) uint8_t memory[BSM_IMAGE_BYTES];
+uint8_t left_row[3 * BSM_IMAGE_WIDTH], right_row[3 * BSM_IMAGE_WIDTH];
+int16_t disparities[BSM_IMAGE_WIDTH];
 
 [[noreturn]] void stop(const char* about, const char* problem) {
   host_print("probe: ");
@@ -96,6 +98,8 @@ void apply(const char* key, const char* value, Run* run) {
     check(bsm_config_preset(config, static_cast<bsm_preset>(value_of(kPresets, value))));
   } else if (same_text(key, "method")) {
     config->method = value_of(kMethods, value);
+  } else if (same_text(key, "scalar")) {
+    config->isa_mask = number_of(value) != 0 ? 0 : BSM_ISA_ALL;
   } else if (same_text(key, "frame")) {
     run->frame = number_of(value) != 0;
   } else if (same_text(key, "map")) {
@@ -200,16 +204,13 @@ bsm_status measured(Costs* costs, const Call& call) {
   return status;
 }
 
-void match_rows(bsm_context* context, const Scene& scene, Shelf shelf, Sink* sink, Costs* costs) {
+void match_rows(bsm_context* context, const Scene& scene, Sink* sink, Costs* costs) {
   const int32_t width = scene.options.width;
-  uint8_t* left = shelf.take<uint8_t>(3 * width);
-  uint8_t* right = shelf.take<uint8_t>(3 * width);
-  int16_t* disparities = shelf.take<int16_t>(width);
-  const bsm_row left_row = {{left, nullptr}}, right_row = {{right, nullptr}};
+  const bsm_row left = {{left_row, nullptr}}, right = {{right_row, nullptr}};
   for (int32_t y = 0;; ++y) {
     if (y < scene.options.height) {
-      scene.render(y, left, right);
-      measured(costs, [&] { return bsm_push_row(context, &left_row, &right_row); });
+      scene.render(y, left_row, right_row);
+      measured(costs, [&] { return bsm_push_row(context, &left, &right); });
     }
     const bsm_status pulled = measured(costs, [&] { return bsm_pull_row(context, disparities, nullptr, nullptr); });
     if (pulled == BSM_END) return;
@@ -222,19 +223,30 @@ void match_frame(bsm_context* context, const Scene& scene, Shelf shelf, Sink* si
   const int32_t row_bytes = width * (scene.format == BSM_FORMAT_GRAY8 ? 1 : 3);
   uint8_t* left = shelf.take<uint8_t>(row_bytes * height + 2 * width);  // a row is rendered in colour
   uint8_t* right = shelf.take<uint8_t>(row_bytes * height + 2 * width);
-  int16_t* disparities = shelf.take<int16_t>(width * height);
+  int16_t* map = shelf.take<int16_t>(width * height);
   for (int32_t y = 0; y < height; ++y) scene.render(y, left + row_bytes * y, right + row_bytes * y);
   bsm_frame frame{};
   frame.left = bsm_image{{left, nullptr}, {row_bytes, 0}};
   frame.right = bsm_image{{right, nullptr}, {row_bytes, 0}};
-  frame.disparity = bsm_map{disparities, 2 * width};
+  frame.disparity = bsm_map{map, 2 * width};
   measured(costs, [&] { return bsm_process(context, &frame); });
-  for (int32_t y = 0; y < height; ++y) sink->take(disparities + width * y, width);
+  for (int32_t y = 0; y < height; ++y) sink->take(map + width * y, width);
 }
 
-void report(const Run& run, const Sink& sink, size_t arena, const Costs& costs) {
+// The instruction set of the mask's kernel, the end of its name; every set that kernels are written for has one.
+const char* isa_name(const bsm_context* context) {
+  const char* name = bsm_kernel_name(context, BSM_KERNEL_MASK);
+  for (const char* end = name; *end != 0; ++end) {
+    if (*end == '_') name = end + 1;
+  }
+  return name;
+}
+
+void report(const Run& run, const bsm_context* context, const Sink& sink, size_t arena, const Costs& costs) {
   char line[160];
-  char* end = append_text(line, "hash=");
+  char* end = append_text(line, "isa=");
+  end = append_text(end, isa_name(context));
+  end = append_text(end, " hash=");
   end = append_hex(end, sink.hash.value);
   end = append_text(end, " arena=");
   end = append_decimal(end, static_cast<uint32_t>(arena));
@@ -278,7 +290,12 @@ int main() {
     if (problem != nullptr) stop(run.map_path, problem);
   }
   Costs costs;
-  (run.frame ? match_frame : match_rows)(context, scene, Shelf(arena), &sink, &costs);
-  report(run, sink, arena, costs);
+  if (run.config.width > BSM_IMAGE_WIDTH) stop("width", "longer than this image's rows");
+  if (run.frame) {
+    match_frame(context, scene, Shelf(arena), &sink, &costs);
+  } else {
+    match_rows(context, scene, &sink, &costs);
+  }
+  report(run, context, sink, arena, costs);
   host_exit(0);
 }
