@@ -30,18 +30,18 @@
 #define BSM_ARCH_NEON 0
 #endif
 
-// M-profile processors, little-endian: SIMD in core registers, and vectors of integers. Such a processor reports nothing at
-// run time; what the compiler targets is what it has.
-#if (defined(__GNUC__) || defined(__clang__)) && !defined(__ARM_BIG_ENDIAN) && defined(__ARM_FEATURE_SIMD32) && \
-    defined(__ARM_ARCH_PROFILE)
-#define BSM_ARCH_DSP (__ARM_ARCH_PROFILE == 'M')
-#else
-#define BSM_ARCH_DSP 0
-#endif
+// M-profile processors, little-endian: vectors of integers, or else SIMD in core registers. Such a processor reports nothing
+// at run time; what the compiler targets is what it has.
 #if (defined(__GNUC__) || defined(__clang__)) && !defined(__ARM_BIG_ENDIAN) && defined(__ARM_FEATURE_MVE)
 #define BSM_ARCH_MVE (__ARM_FEATURE_MVE & 1)
 #else
 #define BSM_ARCH_MVE 0
+#endif
+#if (defined(__GNUC__) || defined(__clang__)) && !defined(__ARM_BIG_ENDIAN) && defined(__ARM_FEATURE_SIMD32) && \
+    defined(__ARM_ARCH_PROFILE) && !BSM_ARCH_MVE
+#define BSM_ARCH_DSP (__ARM_ARCH_PROFILE == 'M')
+#else
+#define BSM_ARCH_DSP 0
 #endif
 
 // Before a loop of a constant few rounds: unrolled whole, so that arrays indexed in it live in registers.

@@ -3,6 +3,7 @@
 #include "platform/compiler.h"
 
 #if BSM_ARCH_DSP
+#include "simd/arm/candidates.h"
 #include "simd/arm/dsp.h"
 #include "simd/kernels.h"
 
@@ -22,22 +23,6 @@ inline uint32_t count_nibbles(const Fields& fields, uint32_t word) {
 
 inline uint32_t add_nibbles(const Fields& fields, uint32_t nibbles) {
   return (nibbles & fields.bytes) + (nibbles >> 4 & fields.bytes);
-}
-
-// Levels of a pixel whose other pixel lies in the row.
-struct Candidates {
-  int32_t begin, end;
-};
-
-Candidates candidates_of(const CostHammingArgs& args, int32_t x) {
-  // Level 0 meets `nearest`; further levels go left for the left view, right for the right one.
-  const int32_t nearest = args.view == 0 ? x - args.min_disparity : x + args.min_disparity;
-  const int32_t before = args.view == 0 ? nearest - args.width + 1 : -nearest;  // levels that lie beyond the near end
-  const int32_t after = args.view == 0 ? nearest + 1 : args.width - nearest;    // level from which they do so at the far end
-  const int32_t count = args.num_disparities;
-  const int32_t begin = before < 0 ? 0 : before < count ? before : count;
-  const int32_t end = after < begin ? begin : after < count ? after : count;
-  return Candidates{begin, end};
 }
 
 // A word of the pixel whose costs are counted.
@@ -99,9 +84,8 @@ void cost_hamming_dsp(const CostHammingArgs& args) {
   uint16_t* cost = args.cost;
   for (int32_t x = 0; x < args.width; ++x, own += bytes, cost += args.stride) {
     const Candidates inside = candidates_of(args, x);
-    const int32_t first = args.view == 0 ? x - args.min_disparity - inside.begin : x + args.min_disparity + inside.begin;
     for (int32_t level = 0; level < inside.begin; ++level) cost[level] = kNoCost;
-    const uint8_t* other = args.other + first * bytes;
+    const uint8_t* other = args.other + inside.first * bytes;
     const int32_t count = inside.end - inside.begin;
     uint16_t* to = cost + inside.begin;
     ptrdiff_t at = bytes % 16;

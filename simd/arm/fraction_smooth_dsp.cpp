@@ -4,28 +4,13 @@
 
 #if BSM_ARCH_DSP
 #include "simd/arm/dsp.h"
+#include "simd/arm/fraction_reciprocals.h"
 #include "simd/kernels.h"
 
 namespace bsm {
 namespace {
 
-constexpr int32_t kSide = 2 * kFractionRadius + 1;
 constexpr uint32_t kSameSurface = 16;  // sixteenths
-constexpr int32_t kMostWeight = kSide * kSide * kMaxFractionWeight;
-
-struct Reciprocals {
-  uint16_t value[kMostWeight + 1];
-};
-
-constexpr Reciprocals make_reciprocals() {
-  Reciprocals table{};
-  for (int32_t weight = 1; weight <= kMostWeight; ++weight) {
-    table.value[weight] = static_cast<uint16_t>(weight == 1 ? 32767 : (32768 + weight / 2) / weight);
-  }
-  return table;
-}
-
-constexpr Reciprocals kReciprocals = make_reciprocals();
 
 // Weighted sums over a neighbourhood; of weights, in two halves.
 struct Sums {
@@ -57,7 +42,7 @@ void fraction_smooth_dsp(const FractionSmoothArgs& args) {
     const bool inside = x >= kFractionRadius && x + kFractionRadius < args.width;
     const int32_t begin = x < kFractionRadius ? 0 : x - kFractionRadius;
     const int32_t end = x + kFractionRadius < args.width ? x + kFractionRadius + 1 : args.width;
-    for (int32_t row = 0; row < kSide; ++row) {
+    for (int32_t row = 0; row < kFractionSide; ++row) {
       const uint16_t* levels = args.levels[row];
       const uint8_t* weights = args.weights[row];
       if (levels == nullptr) continue;
@@ -76,7 +61,7 @@ void fraction_smooth_dsp(const FractionSmoothArgs& args) {
       }
     }
     const uint32_t weight = (sums.weight & 0xffff) + (sums.weight >> 16);
-    const int32_t reciprocal = kReciprocals.value[weight];
+    const int32_t reciprocal = kFractionReciprocals.value[weight];
     const int32_t difference = static_cast<int32_t>(sums.difference);
     args.out[x] = static_cast<uint16_t>(own[x] + ((difference * reciprocal + (1 << 14)) >> 15));
   }

@@ -1,13 +1,12 @@
 // mask_threshold, DSP: four neighbouring pixels in a register.
-// The SADs of the window's points saturate at 255; a pair's weight is the maximum of two of them. The threshold is searched
-// bit by bit: a pass counts the pairs beyond a threshold. Thresholds of 255 are found exactly, pixel by pixel. Bound, for
-// four pixels: per point and plane 1 load, 4 operations; per pair 4 loads, 3 operations, and for each pass 1 load, 3
-// operations.
+// SADs saturate at 255; a pair's weight is the maximum of two of them. The threshold is searched bit by bit: a pass counts
+// the pairs beyond a threshold. Thresholds of 255 are found exactly, pixel by pixel. Bound, for four pixels and a pair: 2
+// loads, 2 operations, and 2 loads, 8 operations a plane; for each pass 1 load, 3 operations.
 #include "platform/compiler.h"
 
 #if BSM_ARCH_DSP
 #include "simd/arm/dsp.h"
-#include "simd/arm/mask_points.h"
+#include "simd/arm/mask_pairs.h"
 #include "simd/kernels.h"
 
 namespace bsm {
@@ -16,38 +15,35 @@ namespace {
 constexpr int32_t kLanes = 4;
 constexpr int32_t kPairsAtOnce = 64;  // that a byte counts
 
+using Scratch = MaskScratch<kLanes>;
+
+// SADs of four pixels and a point of each.
 template <int32_t kPlanes>
-void window_sad(const MaskThresholdArgs& args, int32_t x, const MaskScratch<kLanes>& scratch) {
+inline uint32_t sad(const uint32_t (&center)[kPlanes], const uint8_t* point, ptrdiff_t stride) {
+  uint32_t sum = distance8(center[0], load32(point));
+  BSM_UNROLL
+  for (int32_t plane = 1; plane < kPlanes; ++plane) {
+    point += stride;
+    sum = __uqadd8(sum, distance8(center[plane], load32(point)));
+  }
+  return sum;
+}
+
+template <int32_t kPlanes>
+void pair_weights(const MaskThresholdArgs& args, int32_t x, const Scratch& scratch) {
   const ptrdiff_t stride = args.plane_stride;
   const uint8_t* own = args.rows[args.pattern.radius] + x;
   uint32_t center[kPlanes];
   for (int32_t plane = 0; plane < kPlanes; ++plane) center[plane] = load32(own + plane * stride);
-  uint32_t* sad = reinterpret_cast<uint32_t*>(scratch.sad);
-  for (const uint8_t* const* point = scratch.point; point != scratch.point + scratch.count; ++point) {
-    const uint8_t* at = *point + x;
-    uint32_t sum = distance8(center[0], load32(at));
-    BSM_UNROLL
-    for (int32_t plane = 1; plane < kPlanes; ++plane) {
-      at += stride;
-      sum = __uqadd8(sum, distance8(center[plane], load32(at)));
-    }
-    *sad++ = sum;
-  }
-}
-
-void pair_weights(const MaskScratch<kLanes>& scratch, int32_t bits) {
   uint32_t* weight = reinterpret_cast<uint32_t*>(scratch.weight);
-  const uint16_t* pair = scratch.pairs;
-  for (const uint16_t* const end = pair + 2 * bits; pair != end; pair += 8) {
-    BSM_UNROLL
-    for (int32_t i = 0; i < 4; ++i) {
-      *weight++ = most8(load32(scratch.sad + pair[2 * i]), load32(scratch.sad + pair[2 * i + 1]));
-    }
+  for (const PairPoints* pair = scratch.points; pair != scratch.points + scratch.bits; ++pair) {
+    *weight++ = most8(sad<kPlanes>(center, pair->p + x, stride), sad<kPlanes>(center, pair->q + x, stride));
   }
 }
 
 // All bits set in the bytes where fewer than bits / 4 weights are within the threshold.
-BSM_NOINLINE uint32_t too_few(const MaskScratch<kLanes>& scratch, int32_t bits, uint32_t threshold) {
+BSM_NOINLINE uint32_t too_few(const Scratch& scratch, uint32_t threshold) {
+  const int32_t bits = scratch.bits;
   const uint32_t* weight = reinterpret_cast<const uint32_t*>(scratch.weight);
   uint32_t even = 0;  // weights beyond it, of pixels 0 and 2
   uint32_t odd = 0;   // and 1 and 3
@@ -74,21 +70,21 @@ uint32_t most_byte(uint32_t word) {
 }
 
 // T of four pixels; 255 stands for anything from 255 up.
-uint32_t find_threshold(const MaskScratch<kLanes>& scratch, int32_t bits, int32_t* top) {
+uint32_t find_threshold(const Scratch& scratch, int32_t* top) {
   int32_t step = 1 << *top;
-  while (step < 256 && too_few(scratch, bits, four_times(static_cast<uint32_t>(step - 1))) != 0) step = larger_step(step);
+  while (step < 256 && too_few(scratch, four_times(static_cast<uint32_t>(step - 1))) != 0) step = larger_step(step);
   uint32_t threshold = 0;
   for (step /= 2; step != 0; step /= 2) {
-    const uint32_t few = too_few(scratch, bits, threshold + four_times(static_cast<uint32_t>(step - 1)));
+    const uint32_t few = too_few(scratch, threshold + four_times(static_cast<uint32_t>(step - 1)));
     threshold += few & four_times(static_cast<uint32_t>(step));
   }
   *top = bits_of(most_byte(threshold));
   return threshold;
 }
 
-void store_masks(const MaskScratch<kLanes>& scratch, int32_t bits, uint32_t threshold, int32_t pixels, uint8_t* out) {
+void store_masks(const Scratch& scratch, uint32_t threshold, int32_t pixels, uint8_t* out) {
   const uint32_t* weight = reinterpret_cast<const uint32_t*>(scratch.weight);
-  const ptrdiff_t bytes = bits / 8;
+  const ptrdiff_t bytes = scratch.bits / 8;
   for (uint8_t* const end = out + bytes; out != end; ++out, weight += 8) {
     uint32_t beyond = 0;
     BSM_UNROLL
@@ -102,23 +98,21 @@ void store_masks(const MaskScratch<kLanes>& scratch, int32_t bits, uint32_t thre
 }  // namespace
 
 uint64_t mask_threshold_dsp_scratch(const KernelShape& shape) {
-  return MaskScratch<kLanes>::bytes(shape);
+  return Scratch::bytes(shape.bits);
 }
 
 void mask_threshold_dsp(const MaskThresholdArgs& args) {
-  const int32_t bits = args.pattern.bits;
-  const MaskScratch<kLanes> scratch = list_points<kLanes>(args);
+  const Scratch scratch = list_pairs<kLanes>(args, args.scratch);
   int32_t top = 4;
   for (int32_t x = 0; x < args.width; x += kLanes) {
     const int32_t pixels = args.width - x < kLanes ? args.width - x : kLanes;
     if (args.planes == 3) {
-      window_sad<3>(args, x, scratch);
+      pair_weights<3>(args, x, scratch);
     } else {
-      window_sad<1>(args, x, scratch);
+      pair_weights<1>(args, x, scratch);
     }
-    pair_weights(scratch, bits);
-    uint32_t threshold = find_threshold(scratch, bits, &top);
-    store_masks(scratch, bits, threshold, pixels, args.out + ptrdiff_t{x} * (bits / 8));
+    uint32_t threshold = find_threshold(scratch, &top);
+    store_masks(scratch, threshold, pixels, args.out + ptrdiff_t{x} * (scratch.bits / 8));
     for (int32_t i = 0; i < pixels; ++i, threshold >>= 8) {
       if ((threshold & 0xff) == 0xff) store_exact(args, x + i, scratch);
     }

@@ -4,21 +4,11 @@
 
 #if BSM_ARCH_DSP
 #include "simd/arm/dsp.h"
+#include "simd/arm/winner_fraction.h"
 #include "simd/kernels.h"
 
 namespace bsm {
 namespace {
-
-// Equiangular fit through (d - 1, left), (d, center), (d + 1, right), center the least: sixteenths of a pixel, -8..7.
-inline int32_t fraction(uint16_t left, uint16_t center, uint16_t right) {
-  const int32_t a = left - center;
-  const int32_t b = right - center;
-  const int32_t larger = a < b ? b : a;
-  if (larger == 0) return 0;
-  // floor(8 (a - b) / larger + 1/2), with a numerator that is never negative: a - b >= -larger.
-  const uint32_t rounded = static_cast<uint32_t>(16 * (a - b) + 17 * larger) / static_cast<uint32_t>(2 * larger);
-  return rounded < 15 ? static_cast<int32_t>(rounded) - 8 : 7;
-}
 
 // The first level that holds the least sum: one of them does.
 inline int32_t find(const uint16_t* sums, uint32_t smallest, int32_t count) {
@@ -45,15 +35,7 @@ void winner_sums_dsp(const WinnerSumsArgs& args) {
     uint32_t least = twice(sums[count - 1]);
     for (int32_t level = 0; level + 2 <= count; level += 2) least = least16(least, load32(sums + level));
     const uint32_t smallest = least_half(least);
-    args.level[x] = kNoLevel;
-    if (smallest == kNoCost) continue;
-    const int32_t winner = find(sums, smallest, count);
-    int32_t sixteenths = winner << kLevelShift;
-    const bool inside = 0 < winner && winner + 1 < count;
-    if (args.subpixel != 0 && inside && sums[winner - 1] != kNoCost && sums[winner + 1] != kNoCost) {
-      sixteenths += fraction(sums[winner - 1], static_cast<uint16_t>(smallest), sums[winner + 1]);
-    }
-    args.level[x] = static_cast<uint16_t>(sixteenths);
+    args.level[x] = smallest == kNoCost ? kNoLevel : winning_level(args, sums, find(sums, smallest, count));
   }
 }
 

@@ -118,7 +118,7 @@ run_cortexm() {
   expect "m4, netduinoplus2: local, rows" gives_hash "256 rgb24 refined left" dsp m4 netduinoplus2 probe preset=paper bits=256
   test_core m7 mps2-an500 dsp
   test_core m33 mps2-an505 dsp
-  test_core m55 mps3-an547 dsp
+  test_core m55 mps3-an547 mve
   expect "a library with floating point" make_float_library
   expect "floating point, refused" refuses "__aeabi_fmul" proof symbols "$out/float.a"
 }
