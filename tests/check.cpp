@@ -70,18 +70,6 @@ int repeats(int full) {
   return static_cast<int>(std::max(1L, static_cast<long>(full) * std::clamp(percent, 1L, 10000L) / 100));
 }
 
-uint64_t Rng::next() {
-  uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
-
-int Rng::range(int low, int high) {
-  const uint64_t span = static_cast<uint64_t>(static_cast<int64_t>(high) - low + 1);
-  return static_cast<int>(low + static_cast<int64_t>((next() >> 11) % span));
-}
-
 uint64_t seed() {
   return run_seed;
 }

@@ -10,6 +10,8 @@
 #include <string>
 #include <type_traits>
 
+#include "rng.h"
+
 namespace bsm::test {
 
 // True where the code runs several times slower than a user's build: sanitizers or no optimisation.
@@ -33,20 +35,6 @@ inline constexpr bool kOptimized = false;
 // Scales a count of repetitions to the build and to the environment variable BSM_TEST_EFFORT (percent; 100 without it, and
 // 15 in builds that are sanitized or not optimized). At least 1.
 int repeats(int full);
-
-// Small portable generator (splitmix64): the same numbers on every machine.
-class Rng {
- public:
-  explicit Rng(uint64_t seed) : state_(seed) {}
-  uint64_t next();
-  // Uniform in low..high.
-  int range(int low, int high);
-  uint8_t byte() { return static_cast<uint8_t>(next() >> 56); }
-  bool one_in(int n) { return range(1, n) == 1; }
-
- private:
-  uint64_t state_;
-};
 
 // Seed of this run: --seed, else a constant. Printed at the start; every case makes its own generator from it.
 uint64_t seed();

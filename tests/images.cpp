@@ -147,40 +147,8 @@ const char* format_name(bsm_format format) {
   return "?";
 }
 
-bool has_chroma_plane(bsm_format format) {
-  return format == BSM_FORMAT_NV12 || format == BSM_FORMAT_NV21;
-}
-
 bool is_yuv(bsm_format format) {
   return has_chroma_plane(format) || format == BSM_FORMAT_YUYV;
-}
-
-bsm_format any_format(Rng& rng) {
-  return kAllFormats[rng.range(0, static_cast<int>(std::size(kAllFormats)) - 1)];
-}
-
-int row_bytes(bsm_format format, int width) {
-  switch (format) {
-    case BSM_FORMAT_GRAY8:
-    case BSM_FORMAT_NV12:
-    case BSM_FORMAT_NV21:
-      return width;
-    case BSM_FORMAT_RGB24:
-    case BSM_FORMAT_BGR24:
-      return 3 * width;
-    case BSM_FORMAT_RGBA32:
-    case BSM_FORMAT_BGRA32:
-      return 4 * width;
-    case BSM_FORMAT_RGB565:
-      return 2 * width;
-    case BSM_FORMAT_YUYV:
-      return (width + 1) / 2 * 4;
-  }
-  return 0;
-}
-
-int chroma_row_bytes(int width) {
-  return (width + 1) / 2 * 2;
 }
 
 const char* stage_name(bsm_stage stage) {

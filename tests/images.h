@@ -8,6 +8,7 @@
 
 #include "bsm/bsm.h"
 #include "check.h"
+#include "pixel_formats.h"
 
 namespace bsm::test {
 
@@ -54,18 +55,9 @@ struct EncodedPair {
   PixelImage left, right;
 };
 
-inline constexpr bsm_format kAllFormats[] = {BSM_FORMAT_GRAY8,  BSM_FORMAT_RGB24,  BSM_FORMAT_BGR24,
-                                             BSM_FORMAT_RGBA32, BSM_FORMAT_BGRA32, BSM_FORMAT_RGB565,
-                                             BSM_FORMAT_NV12,   BSM_FORMAT_NV21,   BSM_FORMAT_YUYV};
 inline constexpr bsm_format kYuvFormats[] = {BSM_FORMAT_NV12, BSM_FORMAT_NV21, BSM_FORMAT_YUYV};
 const char* format_name(bsm_format format);
 bool is_yuv(bsm_format format);
-bool has_chroma_plane(bsm_format format);
-bsm_format any_format(Rng& rng);
-
-// Bytes of a row of pixels of plane 0 and of the chroma plane.
-int row_bytes(bsm_format format, int width);
-int chroma_row_bytes(int width);
 
 // The stages of the local method, in order.
 inline constexpr bsm_stage kStages[] = {BSM_STAGE_COST, BSM_STAGE_MASKED, BSM_STAGE_CHECKED, BSM_STAGE_REFINED};

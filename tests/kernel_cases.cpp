@@ -1,8 +1,7 @@
 // kernel_cases.cpp - contents, scratch and outputs of the kernels' trials.
 #include "kernel_cases.h"
 
-#include <algorithm>
-#include <cstring>
+#include "platform/compiler.h"
 
 namespace bsm::test {
 
@@ -30,8 +29,11 @@ void fill(Rng& rng, T* values, size_t count, Values kind) {
         values[i] = rng.one_in(2) ? static_cast<T>(0) : static_cast<T>(kMost);
         break;
       case Values::kSmooth:
-        smooth = static_cast<uint64_t>(
-            std::clamp<int64_t>(static_cast<int64_t>(smooth) + rng.range(-3, 3), 0, static_cast<int64_t>(kMost)));
+        if (const int step = rng.range(-3, 3); step < 0) {
+          smooth -= smooth < static_cast<uint64_t>(-step) ? smooth : static_cast<uint64_t>(-step);
+        } else {
+          smooth += kMost - smooth < static_cast<uint64_t>(step) ? kMost - smooth : static_cast<uint64_t>(step);
+        }
         values[i] = static_cast<T>(smooth);
         break;
     }
@@ -43,31 +45,29 @@ template void fill(Rng&, uint16_t*, size_t, Values);
 void* take_scratch(const Trial& trial, kernel_scratch_fn* scratch, const KernelShape& shape) {
   const size_t bytes = static_cast<size_t>(scratch(shape));
   uint8_t* const memory = trial.yard.take(bytes, 64);
-  std::memset(memory, trial.rng.byte(), bytes);
+  BSM_MEMSET(memory, trial.rng.byte(), bytes);
   return memory;
 }
 
 template <typename T>
 Output<T> take_output(const Trial& trial, size_t count, size_t alignment) {
-  Output<T> output{trial.yard.take_array<T>(count, alignment), std::vector<T>(count)};
-  fill(trial.rng, output.scalar.data(), count, Values::kNoise);
-  std::copy(output.scalar.begin(), output.scalar.end(), output.kernel);
+  const Output<T> output{trial.yard.take_array<T>(count, alignment), trial.yard.take_array<T>(count, alignment), count};
+  fill(trial.rng, output.scalar, count, Values::kNoise);
+  BSM_MEMCPY(output.kernel, output.scalar, count * sizeof(T));
   return output;
 }
 template Output<uint8_t> take_output(const Trial&, size_t, size_t);
 template Output<uint16_t> take_output(const Trial&, size_t, size_t);
 
 template <typename T>
-void check_output(const Trial& trial, const Output<T>& output, const char* what) {
-  CHECK(trial.yard.intact());
-  for (size_t i = 0; i < output.scalar.size(); ++i) {
+void check_output(const Trial& trial, const Output<T>& output, const char* what, const Note* notes, size_t notes_count) {
+  if (!trial.yard.intact()) return trial.report(Difference{what, 0, 0, 0, notes, notes_count});
+  for (size_t i = 0; i < output.count; ++i) {
     if (output.kernel[i] == output.scalar[i]) continue;
-    const Scope scope(std::string(what) + ", element " + text_of(i));
-    CHECK_EQ(output.kernel[i], output.scalar[i]);
-    throw Stop{};
+    return trial.report(Difference{what, i, output.kernel[i], output.scalar[i], notes, notes_count});
   }
 }
-template void check_output(const Trial&, const Output<uint8_t>&, const char*);
-template void check_output(const Trial&, const Output<uint16_t>&, const char*);
+template void check_output(const Trial&, const Output<uint8_t>&, const char*, const Note*, size_t);
+template void check_output(const Trial&, const Output<uint16_t>&, const char*, const Note*, size_t);
 
 }  // namespace bsm::test

@@ -1,16 +1,32 @@
 // kernel_cases.h - random arguments for every stage, run through a kernel and through scalar: one try_kernel for each
-// argument struct, found by its type, so that a stage without one does not compile.
+// argument struct, found by its type, so that a stage without one does not compile. Freestanding: the same trials run in a
+// test program and in an image for a microcontroller.
 #ifndef BSM_TESTS_KERNEL_CASES_H
 #define BSM_TESTS_KERNEL_CASES_H
 
-#include <string>
-#include <vector>
+#include <stddef.h>
+#include <stdint.h>
 
-#include "check.h"
+#include "rng.h"
 #include "simd/kernels.h"
 #include "yard.h"
 
 namespace bsm::test {
+
+// A setting of a trial, for messages.
+struct Note {
+  const char* name;
+  int value;
+};
+
+// What is wrong with an output.
+struct Difference {
+  const char* what;
+  size_t element;
+  uint32_t kernel, scalar;  // equal: something was written around the memory
+  const Note* notes;
+  size_t notes_count;
+};
 
 // What a trial draws from and where its memory lies.
 struct Trial {
@@ -18,6 +34,7 @@ struct Trial {
   Yard& yard;  // empty
   int width;   // 1..200
   int bits;    // a multiple of 64
+  void (*report)(const Difference& difference);
 };
 
 template <class Args>
@@ -61,12 +78,39 @@ void* take_scratch(const Trial& trial, kernel_scratch_fn* scratch, const KernelS
 template <typename T>
 struct Output {
   T* kernel;
-  std::vector<T> scalar;
+  T* scalar;
+  size_t count;
 };
 template <typename T>
 Output<T> take_output(const Trial& trial, size_t count, size_t alignment = alignof(T));
 template <typename T>
-void check_output(const Trial& trial, const Output<T>& output, const char* what);
+void check_output(const Trial& trial, const Output<T>& output, const char* what, const Note* notes, size_t notes_count);
+template <typename T>
+void check_output(const Trial& trial, const Output<T>& output, const char* what) {
+  check_output(trial, output, what, nullptr, 0);
+}
+template <typename T, size_t kNotes>
+void check_output(const Trial& trial, const Output<T>& output, const char* what, const Note (&notes)[kNotes]) {
+  check_output(trial, output, what, notes, kNotes);
+}
+
+// Up to `most` values of a trial, in its yard.
+template <typename T>
+class List {
+ public:
+  List(const Trial& trial, int most) : data_(trial.yard.take_array<T>(static_cast<size_t>(most))) {}
+  void push_back(T value) { data_[count_++] = value; }
+  T back() const { return data_[count_ - 1]; }
+  T* data() const { return data_; }
+
+ private:
+  T* data_;
+  int count_ = 0;
+};
+
+inline int lesser(int a, int b) {
+  return a < b ? a : b;
+}
 
 }  // namespace bsm::test
 

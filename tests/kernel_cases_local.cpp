@@ -1,18 +1,16 @@
 // kernel_cases_local.cpp - trials of the stages that the local method runs.
-#include <algorithm>
-
 #include "core/pattern.h"
 #include "core/weights.h"
-#include "images.h"
 #include "kernel_cases.h"
+#include "pixel_formats.h"
 
 namespace bsm::test {
 namespace {
 
 // Rows of a window: pointers at x = 0, with values on both sides.
 template <typename T>
-std::vector<const T*> take_rows(const Trial& trial, int count, int before, int row_values, Values kind) {
-  std::vector<const T*> rows;
+List<const T*> take_rows(const Trial& trial, int count, int before, int row_values, Values kind) {
+  List<const T*> rows(trial, count);
   for (int i = 0; i < count; ++i) {
     if (i > 0 && trial.rng.one_in(4)) {  // as at the top and bottom of an image
       rows.push_back(rows.back());
@@ -27,7 +25,7 @@ std::vector<const T*> take_rows(const Trial& trial, int count, int before, int r
 
 // Rows of CIELAB planes. Similar colours in some trials: SADs that need all of their bits are rare among noise.
 struct LabRows {
-  std::vector<const uint8_t*> rows;
+  const uint8_t* const* rows;
   ptrdiff_t stride;
   int planes;
 };
@@ -37,7 +35,7 @@ LabRows take_lab(const Trial& trial, int count, int before, int values) {
   lab.planes = trial.rng.one_in(3) ? 1 : 3;
   lab.stride = values + (trial.rng.one_in(2) ? 0 : trial.rng.range(1, 70));
   const int bytes = static_cast<int>(lab.stride) * (lab.planes - 1) + values;
-  lab.rows = take_rows<uint8_t>(trial, count, before, bytes, any_values(trial.rng));
+  lab.rows = take_rows<uint8_t>(trial, count, before, bytes, any_values(trial.rng)).data();
   return lab;
 }
 
@@ -88,12 +86,12 @@ void try_kernel(const Trial& trial, const Kernel<ColorLabArgs>& kernel, const Ke
   args.luma = with_luma ? luma.kernel : nullptr;
   args.lab = with_lab ? lab.kernel : nullptr;
   kernel.run(args);
-  args.luma = with_luma ? luma.scalar.data() : nullptr;
-  args.lab = with_lab ? lab.scalar.data() : nullptr;
+  args.luma = with_luma ? luma.scalar : nullptr;
+  args.lab = with_lab ? lab.scalar : nullptr;
   scalar.run(args);
-  const Scope scope("format " + text_of(args.format));
-  check_output(trial, luma, "luma");
-  check_output(trial, lab, "lab");
+  const Note notes[] = {{"format", args.format}};
+  check_output(trial, luma, "luma", notes);
+  check_output(trial, lab, "lab", notes);
 }
 
 void try_kernel(const Trial& trial, const Kernel<DescriptorCompareArgs>& kernel,
@@ -101,13 +99,13 @@ void try_kernel(const Trial& trial, const Kernel<DescriptorCompareArgs>& kernel,
   const Pattern pattern = any_pattern(trial);
   const int radius = pattern.radius;
   const KernelShape shape = shape_of(trial, radius, 3, 1);
-  const std::vector<const uint16_t*> rows = take_rows<uint16_t>(
+  const List<const uint16_t*> rows = take_rows<uint16_t>(
       trial, 2 * radius + 1, radius, round_up(trial.width, kernel.block) + 2 * radius, any_values(trial.rng));
   Output<uint8_t> out = take_output<uint8_t>(trial, static_cast<size_t>(trial.width * trial.bits / 8), 64);
   kernel.run(
       DescriptorCompareArgs{rows.data(), trial.width, pattern, out.kernel, take_scratch(trial, kernel.scratch, shape)});
-  scalar.run(DescriptorCompareArgs{rows.data(), trial.width, pattern, out.scalar.data(),
-                                   take_scratch(trial, scalar.scratch, shape)});
+  scalar.run(
+      DescriptorCompareArgs{rows.data(), trial.width, pattern, out.scalar, take_scratch(trial, scalar.scratch, shape)});
   check_output(trial, out, "descriptors");
 }
 
@@ -118,9 +116,9 @@ void try_kernel(const Trial& trial, const Kernel<MaskThresholdArgs>& kernel, con
   const KernelShape shape = shape_of(trial, radius, lab.planes, 1);
   Output<uint8_t> out = take_output<uint8_t>(trial, static_cast<size_t>(trial.width * trial.bits / 8), 64);
   MaskThresholdArgs args{
-      lab.rows.data(), lab.stride, lab.planes, trial.width, pattern, out.kernel, take_scratch(trial, kernel.scratch, shape)};
+      lab.rows, lab.stride, lab.planes, trial.width, pattern, out.kernel, take_scratch(trial, kernel.scratch, shape)};
   kernel.run(args);
-  args.out = out.scalar.data();
+  args.out = out.scalar;
   args.scratch = take_scratch(trial, scalar.scratch, shape);
   scalar.run(args);
   check_output(trial, out, "masks");
@@ -147,20 +145,20 @@ void try_kernel(const Trial& trial, const Kernel<MatchHammingArgs>& kernel, cons
   args.right_level = right.kernel;
   args.scratch = take_scratch(trial, kernel.scratch, shape);
   kernel.run(args);
-  args.left_level = left.scalar.data();
-  args.right_level = right.scalar.data();
+  args.left_level = left.scalar;
+  args.right_level = right.scalar;
   args.scratch = take_scratch(trial, scalar.scratch, shape);
   scalar.run(args);
-  const Scope scope("disparities " + text_of(args.num_disparities) + " from " + text_of(args.min_disparity));
-  check_output(trial, left, "left levels");
-  check_output(trial, right, "right levels");
+  const Note notes[] = {{"disparities", args.num_disparities}, {"from", args.min_disparity}};
+  check_output(trial, left, "left levels", notes);
+  check_output(trial, right, "right levels", notes);
 }
 
 void try_kernel(const Trial& trial, const Kernel<VoteWeighArgs>& kernel, const Kernel<VoteWeighArgs>& scalar) {
   Rng& rng = trial.rng;
   VoteWeighArgs args{};
   args.step = rng.one_in(2) ? 1 : rng.range(2, 9);
-  args.radius = args.step * rng.range(1, std::min(BSM_MAX_VOTE_RADIUS / args.step, rng.one_in(4) ? 32 : 6));
+  args.radius = args.step * rng.range(1, lesser(BSM_MAX_VOTE_RADIUS / args.step, rng.one_in(4) ? 32 : 6));
   const int side = 2 * args.radius + 1;
   const LabRows lab = take_lab(trial, side, 0, round_up(trial.width, kernel.block));
   args.planes = lab.planes;
@@ -168,7 +166,7 @@ void try_kernel(const Trial& trial, const Kernel<VoteWeighArgs>& kernel, const K
   args.width = trial.width;
   args.num_disparities = any_disparities(trial);
   // Some fractions round up to the next level, but never past the last one.
-  std::vector<const uint16_t*> levels;
+  List<const uint16_t*> levels(trial, side);
   const int valid_in = rng.range(1, 9);
   for (int i = 0; i < side; ++i) {
     uint16_t* const row = trial.yard.take_array<uint16_t>(static_cast<size_t>(round_up(trial.width, kernel.block)));
@@ -180,13 +178,13 @@ void try_kernel(const Trial& trial, const Kernel<VoteWeighArgs>& kernel, const K
     levels.push_back(i != args.radius && rng.one_in(10) ? nullptr : row);
   }
   args.levels = levels.data();
-  args.lab = lab.rows.data();
-  std::vector<uint16_t> cap(static_cast<size_t>(trial.width));
-  for (uint16_t& value : cap) value = static_cast<uint16_t>(rng.range(0, args.num_disparities));
+  args.lab = lab.rows;
+  List<uint16_t> cap(trial, trial.width);
+  for (int x = 0; x < trial.width; ++x) cap.push_back(static_cast<uint16_t>(rng.range(0, args.num_disparities)));
   args.cap = rng.one_in(2) ? cap.data() : nullptr;
   args.color_scale = vote_color_scale(rng.range(1, 64));
   const int distance = rng.range(1, 64);
-  std::vector<uint16_t> steps;
+  List<uint16_t> steps(trial, (args.radius + 1) * (args.radius + 1));
   for (int dy = 0; dy <= args.radius; ++dy) {
     for (int dx = 0; dx <= args.radius; ++dx) steps.push_back(vote_distance_steps(dx, dy, distance));
   }
@@ -198,11 +196,11 @@ void try_kernel(const Trial& trial, const Kernel<VoteWeighArgs>& kernel, const K
   args.out = out.kernel;
   args.scratch = take_scratch(trial, kernel.scratch, shape);
   kernel.run(args);
-  args.out = out.scalar.data();
+  args.out = out.scalar;
   args.scratch = take_scratch(trial, scalar.scratch, shape);
   scalar.run(args);
-  const Scope scope("radius " + text_of(args.radius) + " step " + text_of(args.step));
-  check_output(trial, out, "levels");
+  const Note notes[] = {{"radius", args.radius}, {"step", args.step}};
+  check_output(trial, out, "levels", notes);
 }
 
 void try_kernel(const Trial& trial, const Kernel<MedianWeightedArgs>& kernel, const Kernel<MedianWeightedArgs>& scalar) {
@@ -214,7 +212,7 @@ void try_kernel(const Trial& trial, const Kernel<MedianWeightedArgs>& kernel, co
   args.planes = lab.planes;
   args.plane_stride = lab.stride;
   args.width = trial.width;
-  std::vector<const uint16_t*> levels;
+  List<const uint16_t*> levels(trial, side);
   const int base = rng.range(0, 60000);
   const int spread = rng.one_in(3) ? rng.range(0, 3) : rng.range(3, 4000);
   for (int i = 0; i < side; ++i) {
@@ -223,18 +221,19 @@ void try_kernel(const Trial& trial, const Kernel<MedianWeightedArgs>& kernel, co
     levels.push_back(i != args.radius && rng.one_in(10) ? nullptr : row);
   }
   args.levels = levels.data();
-  args.lab = lab.rows.data();
+  args.lab = lab.rows;
   args.color_scale = smooth_color_scale(rng.range(1, 64));
   const int distance = rng.range(1, 64);
-  std::vector<uint8_t> steps;
+  List<uint8_t> steps(trial, (args.radius + 1) * (args.radius + 1));
   for (int dy = 0; dy <= args.radius; ++dy) {
     for (int dx = 0; dx <= args.radius; ++dx) steps.push_back(smooth_distance_steps(dx, dy, distance));
   }
   args.distance_steps = steps.data();
   args.weights = kSmoothWeights.weight;
-  std::vector<uint16_t> checked(static_cast<size_t>(trial.width));
-  for (uint16_t& level : checked)
-    level = rng.one_in(3) ? (rng.one_in(2) ? kNoLevel : kOccluded) : static_cast<uint16_t>(base);
+  List<uint16_t> checked(trial, trial.width);
+  for (int x = 0; x < trial.width; ++x) {
+    checked.push_back(rng.one_in(3) ? (rng.one_in(2) ? kNoLevel : kOccluded) : static_cast<uint16_t>(base));
+  }
   args.checked = checked.data();
   args.own_bonus = static_cast<uint32_t>(rng.range(0, 512));
   const KernelShape shape = shape_of(trial, kMaxPatternRadius, args.planes, 4000);
@@ -242,19 +241,19 @@ void try_kernel(const Trial& trial, const Kernel<MedianWeightedArgs>& kernel, co
   args.out = out.kernel;
   args.scratch = take_scratch(trial, kernel.scratch, shape);
   kernel.run(args);
-  args.out = out.scalar.data();
+  args.out = out.scalar;
   args.scratch = take_scratch(trial, scalar.scratch, shape);
   scalar.run(args);
-  const Scope scope("radius " + text_of(args.radius));
-  check_output(trial, out, "levels");
+  const Note notes[] = {{"radius", args.radius}};
+  check_output(trial, out, "levels", notes);
 }
 
 void try_kernel(const Trial& trial, const Kernel<FractionSmoothArgs>& kernel, const Kernel<FractionSmoothArgs>& scalar) {
   Rng& rng = trial.rng;
   FractionSmoothArgs args{};
   args.width = trial.width;
-  std::vector<const uint16_t*> levels;
-  std::vector<const uint8_t*> weights;
+  List<const uint16_t*> levels(trial, 5);
+  List<const uint8_t*> weights(trial, 5);
   const int base = rng.range(0, 60000);
   const int spread = rng.range(0, 100);
   for (int i = 0; i < 5; ++i) {
@@ -276,7 +275,7 @@ void try_kernel(const Trial& trial, const Kernel<FractionSmoothArgs>& kernel, co
   args.out = out.kernel;
   args.scratch = take_scratch(trial, kernel.scratch, shape);
   kernel.run(args);
-  args.out = out.scalar.data();
+  args.out = out.scalar;
   args.scratch = take_scratch(trial, scalar.scratch, shape);
   scalar.run(args);
   check_output(trial, out, "levels");

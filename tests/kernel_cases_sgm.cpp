@@ -1,7 +1,6 @@
 // kernel_cases_sgm.cpp - trials of the stages of semi-global aggregation.
-#include <algorithm>
-
 #include "kernel_cases.h"
+#include "platform/compiler.h"
 
 namespace bsm::test {
 namespace {
@@ -26,13 +25,13 @@ size_t values_of(const Trial& trial, const Volume& volume) {
 void fill_costs(const Trial& trial, const Volume& volume, int most, uint16_t* costs) {
   Rng& rng = trial.rng;
   const int spread = rng.one_in(4) ? rng.range(0, 2) : most;
-  const int least = rng.range(0, most - std::min(most, spread));
+  const int least = rng.range(0, most - lesser(most, spread));
   const int missing_in = rng.range(2, 12);
   for (int x = 0; x < trial.width; ++x) {
     const int begin = rng.one_in(missing_in) ? rng.range(0, volume.num_disparities) : 0;
     const int end = rng.one_in(missing_in) ? rng.range(0, volume.num_disparities) : volume.num_disparities;
     for (int d = 0; d < volume.stride; ++d) {
-      const int cost = least + rng.range(0, std::min(spread, most - least));
+      const int cost = least + rng.range(0, lesser(spread, most - least));
       *costs++ = begin <= d && d < end ? static_cast<uint16_t>(cost) : kNoCost;
     }
   }
@@ -86,12 +85,11 @@ void try_kernel(const Trial& trial, const Kernel<CostHammingArgs>& kernel, const
   args.cost = cost.kernel;
   args.scratch = take_scratch(trial, kernel.scratch, shape_of(trial, volume));
   kernel.run(args);
-  args.cost = cost.scalar.data();
+  args.cost = cost.scalar;
   args.scratch = take_scratch(trial, scalar.scratch, shape_of(trial, volume));
   scalar.run(args);
-  const Scope scope("view " + text_of(args.view) + " disparities " + text_of(args.num_disparities) + " from " +
-                    text_of(args.min_disparity));
-  check_output(trial, cost, "costs");
+  const Note notes[] = {{"view", args.view}, {"disparities", args.num_disparities}, {"from", args.min_disparity}};
+  check_output(trial, cost, "costs", notes);
 }
 
 void try_kernel(const Trial& trial, const Kernel<EdgeThresholdArgs>& kernel, const Kernel<EdgeThresholdArgs>& scalar) {
@@ -114,7 +112,7 @@ void try_kernel(const Trial& trial, const Kernel<EdgeThresholdArgs>& kernel, con
   args.edge = edge.kernel;
   args.scratch = take_scratch(trial, kernel.scratch, shape);
   kernel.run(args);
-  args.edge = edge.scalar.data();
+  args.edge = edge.scalar;
   args.scratch = take_scratch(trial, scalar.scratch, shape);
   scalar.run(args);
   check_output(trial, edge, "edges");
@@ -133,11 +131,11 @@ void try_kernel(const Trial& trial, const Kernel<AggregateAlongArgs>& kernel, co
   args.sum = sum.kernel;
   args.scratch = take_scratch(trial, kernel.scratch, shape_of(trial, volume));
   kernel.run(args);
-  args.sum = sum.scalar.data();
+  args.sum = sum.scalar;
   args.scratch = take_scratch(trial, scalar.scratch, shape_of(trial, volume));
   scalar.run(args);
-  const Scope scope("disparities " + text_of(volume.num_disparities) + " stride " + text_of(volume.stride));
-  check_output(trial, sum, "sums");
+  const Note notes[] = {{"disparities", volume.num_disparities}, {"stride", volume.stride}};
+  check_output(trial, sum, "sums", notes);
 }
 
 void try_kernel(const Trial& trial, const Kernel<AggregateAcrossArgs>& kernel, const Kernel<AggregateAcrossArgs>& scalar) {
@@ -156,28 +154,27 @@ void try_kernel(const Trial& trial, const Kernel<AggregateAcrossArgs>& kernel, c
   Output<uint16_t> current = take_output<uint16_t>(trial, values_of(trial, volume), 64);
   Output<uint16_t> sum = take_output<uint16_t>(trial, values_of(trial, volume), 64);
   fill_costs(trial, volume, 60000, sum.kernel);
-  std::copy(sum.kernel, sum.kernel + sum.scalar.size(), sum.scalar.begin());
+  BSM_MEMCPY(sum.scalar, sum.kernel, sum.count * sizeof(uint16_t));
   const bool begins = rng.one_in(8);
   const bool in_place = args.dx == 0 && rng.one_in(2);
   const uint16_t* previous = begins ? nullptr : take_costs(trial, volume, rng.one_in(2) ? 60000 : 5000);
   if (in_place && !begins) {
-    std::copy(previous, previous + sum.scalar.size(), current.kernel);
-    std::copy(previous, previous + sum.scalar.size(), current.scalar.begin());
+    BSM_MEMCPY(current.kernel, previous, sum.count * sizeof(uint16_t));
+    BSM_MEMCPY(current.scalar, previous, sum.count * sizeof(uint16_t));
   }
   args.current = current.kernel;
   args.previous = in_place && !begins ? current.kernel : previous;
   args.sum = sum.kernel;
   args.scratch = take_scratch(trial, kernel.scratch, shape_of(trial, volume));
   kernel.run(args);
-  args.current = current.scalar.data();
-  args.previous = in_place && !begins ? current.scalar.data() : previous;
-  args.sum = sum.scalar.data();
+  args.current = current.scalar;
+  args.previous = in_place && !begins ? current.scalar : previous;
+  args.sum = sum.scalar;
   args.scratch = take_scratch(trial, scalar.scratch, shape_of(trial, volume));
   scalar.run(args);
-  const Scope scope("disparities " + text_of(volume.num_disparities) + " stride " + text_of(volume.stride) + " dx " +
-                    text_of(args.dx));
-  check_output(trial, current, "paths");
-  check_output(trial, sum, "sums");
+  const Note notes[] = {{"disparities", volume.num_disparities}, {"stride", volume.stride}, {"dx", args.dx}};
+  check_output(trial, current, "paths", notes);
+  check_output(trial, sum, "sums", notes);
 }
 
 void try_kernel(const Trial& trial, const Kernel<WinnerSumsArgs>& kernel, const Kernel<WinnerSumsArgs>& scalar) {
@@ -192,11 +189,11 @@ void try_kernel(const Trial& trial, const Kernel<WinnerSumsArgs>& kernel, const 
   args.level = level.kernel;
   args.scratch = take_scratch(trial, kernel.scratch, shape_of(trial, volume));
   kernel.run(args);
-  args.level = level.scalar.data();
+  args.level = level.scalar;
   args.scratch = take_scratch(trial, scalar.scratch, shape_of(trial, volume));
   scalar.run(args);
-  const Scope scope("disparities " + text_of(volume.num_disparities) + " subpixel " + text_of(args.subpixel));
-  check_output(trial, level, "levels");
+  const Note notes[] = {{"disparities", volume.num_disparities}, {"subpixel", args.subpixel}};
+  check_output(trial, level, "levels", notes);
 }
 
 }  // namespace bsm::test

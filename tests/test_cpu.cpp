@@ -108,6 +108,16 @@ TEST_CASE(arm_capabilities) {
   CHECK_EQ(arm32_features({1u << 12 | 1u << 24, 0}), kCpuNeon | kCpuDotProd);
 }
 
+// M-profile processors report nothing: a host sees only that the sets build upon each other and bear names.
+TEST_CASE(m_profile) {
+  CHECK_EQ(kIsaDsp, uint32_t{kCpuArmDsp});
+  CHECK_EQ(kIsaMve, kCpuArmDsp | kCpuMve);
+  CHECK_EQ(std::string(cpu_feature_name(24)), std::string("dsp"));
+  CHECK_EQ(std::string(cpu_feature_name(25)), std::string("mve"));
+  CHECK_EQ(arm32_features({~uint64_t{0}, ~uint64_t{0}}) & kIsaMve, 0u);  // no Linux machine has them
+  CHECK_EQ(arm64_features({~uint64_t{0}, ~uint64_t{0}}) & kIsaMve, 0u);
+}
+
 TEST_CASE(names) {
   std::set<std::string> names;
   for (int bit = 0; bit < 32; ++bit) {

@@ -11,16 +11,30 @@
 #include "images.h"
 #include "kernel_cases.h"
 #include "matching.h"
+#include "page_yard.h"
 #include "platform/cpu.h"
-#include "yard.h"
 
 using namespace bsm;
 using namespace bsm::test;
 
 namespace {
 
+[[noreturn]] void report(const Difference& difference) {
+  std::string notes = difference.what;
+  for (size_t i = 0; i < difference.notes_count; ++i) {
+    notes += std::string(", ") + difference.notes[i].name + " " + text_of(difference.notes[i].value);
+  }
+  const Scope scope(notes + ", element " + text_of(difference.element));
+  if (difference.kernel != difference.scalar) {
+    CHECK_EQ(difference.kernel, difference.scalar);
+  } else {
+    CHECK(!"nothing was written around the memory");
+  }
+  throw Stop{};
+}
+
 template <class Args>
-void try_widths(const Kernel<Args>& kernel, const Kernel<Args>& scalar, Yard& yard) {
+void try_widths(const Kernel<Args>& kernel, const Kernel<Args>& scalar, PageYard& yard) {
   Rng rng(seed());
   const int rounds = repeats(2);
   int group = rng.range(0, 63);
@@ -30,19 +44,19 @@ void try_widths(const Kernel<Args>& kernel, const Kernel<Args>& scalar, Yard& ya
       const int bits = 64 * (group + 1);
       const Scope scope("width " + text_of(width) + " bits " + text_of(bits));
       yard.clear(rng.one_in(2) ? GuardedBuffer::Edge::kEnd : GuardedBuffer::Edge::kBegin);
-      try_kernel(Trial{rng, yard, width, bits}, kernel, scalar);
+      try_kernel(Trial{rng, yard, width, bits, report}, kernel, scalar);
     }
     for (const int bits : {64, 128, 192, 256, 320, 384, 448, 512, 576, 1024, 4032, 4096}) {
       const Scope scope("bits " + text_of(bits));
       yard.clear(rng.one_in(2) ? GuardedBuffer::Edge::kEnd : GuardedBuffer::Edge::kBegin);
-      try_kernel(Trial{rng, yard, rng.range(1, 200), bits}, kernel, scalar);
+      try_kernel(Trial{rng, yard, rng.range(1, 200), bits, report}, kernel, scalar);
     }
   }
 }
 
 template <class Args>
 void run_kernel(const char* name, uint32_t required, void (*run)(const Args&), kernel_scratch_fn* scratch, int block,
-                void (*scalar)(const Args&), kernel_scratch_fn* scalar_scratch, Yard& yard) {
+                void (*scalar)(const Args&), kernel_scratch_fn* scalar_scratch, PageYard& yard) {
   if (run == scalar) return;
   if ((required & ~cpu_features()) != 0) {
     std::printf("  cannot run here: %s\n", name);
@@ -70,7 +84,7 @@ std::vector<uint32_t> tiers() {
 }  // namespace
 
 TEST_CASE(kernels_equal_scalar) {
-  Yard yard;
+  PageYard yard;
 #define BSM_KERNEL(stage, operation, isa, required, block)                                 \
   run_kernel(#stage "_" #operation "_" #isa, (required), stage##_##operation##_##isa,      \
              stage##_##operation##_##isa##_scratch, (block), stage##_##operation##_scalar, \

@@ -1,41 +1,25 @@
-// yard.h - pieces of memory for kernels under test: each ends (or begins) at a page that may not be touched and has known
-// bytes on its other side, so that a foreign read ends the program and a foreign write is found.
+// yard.h - where the memory of a kernel's trial comes from: pieces with known bytes around them. Freestanding.
 #ifndef BSM_TESTS_YARD_H
 #define BSM_TESTS_YARD_H
 
-#include <cstddef>
-#include <cstdint>
-#include <memory>
-#include <vector>
-
-#include "guarded.h"
+#include <stddef.h>
+#include <stdint.h>
 
 namespace bsm::test {
 
 class Yard {
  public:
-  // Forgets all pieces; the next ones lie at the given side of a forbidden page.
-  void clear(GuardedBuffer::Edge edge);
-  // A piece of `bytes` bytes, its address a multiple of alignment (a power of two, at most a page). At the end of a page the
-  // piece ends as late as the alignment of its size allows.
-  uint8_t* take(size_t bytes, size_t alignment);
+  // A piece of `bytes` bytes, its address a multiple of alignment, a power of two.
+  virtual uint8_t* take(size_t bytes, size_t alignment) = 0;
   template <typename T>
   T* take_array(size_t count, size_t alignment = alignof(T)) {
     return reinterpret_cast<T*>(take(count * sizeof(T), alignment));
   }
   // True while nothing has been written around the pieces.
-  bool intact() const;
+  virtual bool intact() const = 0;
 
- private:
-  struct Piece {
-    uint8_t* begin;
-    uint8_t* end;
-    uint8_t* fence_begin;
-    uint8_t* fence_end;
-  };
-  std::vector<std::unique_ptr<GuardedBuffer>> regions_[2];  // by edge; kept for the next cases
-  std::vector<Piece> pieces_;
-  GuardedBuffer::Edge edge_ = GuardedBuffer::Edge::kEnd;
+ protected:
+  ~Yard() = default;
 };
 
 }  // namespace bsm::test

@@ -82,6 +82,7 @@ test_core() {
     expect "$core, $board: local, rows, scalar" \
       gives_hash "256 rgb24 refined left" scalar "$core" "$board" probe preset=paper bits=256 scalar=1
   fi
+  [ "$isa" = scalar ] || test_kernels_on "$core" "$board" "$isa"
   [ ${#failed[@]} -eq "$before" ] || result=failed
   add_row "cortex-$core" "$board" "$kernels" "$(last_hash "$core 256")" "$(last_hash "$core fast")" frame+rows "$result"
 }

@@ -1,5 +1,5 @@
-// yard.cpp - guarded pieces of memory that are mapped once and reused.
-#include "yard.h"
+// page_yard.cpp - guarded pieces of memory that are mapped once and reused.
+#include "page_yard.h"
 
 #include <algorithm>
 #include <cstring>
@@ -16,12 +16,12 @@ size_t round_up(size_t value, size_t multiple) {
 
 }  // namespace
 
-void Yard::clear(GuardedBuffer::Edge edge) {
+void PageYard::clear(GuardedBuffer::Edge edge) {
   pieces_.clear();
   edge_ = edge;
 }
 
-uint8_t* Yard::take(size_t bytes, size_t alignment) {
+uint8_t* PageYard::take(size_t bytes, size_t alignment) {
   const size_t rounded = round_up(bytes, alignment);
   const size_t needed = rounded + kFence;
   auto& regions = regions_[edge_ == GuardedBuffer::Edge::kEnd ? 0 : 1];
@@ -40,7 +40,7 @@ uint8_t* Yard::take(size_t bytes, size_t alignment) {
   return begin;
 }
 
-bool Yard::intact() const {
+bool PageYard::intact() const {
   const auto clean = [](const uint8_t* begin, const uint8_t* end) {
     return std::all_of(begin, end, [](uint8_t byte) { return byte == kFenceByte; });
   };
