@@ -77,6 +77,7 @@ prove_symbols() {
   need_library "$nm"
   local allowed='^(memcpy|memset|memmove|memcmp'
   allowed+='|__(u?(div|mod)|u?divmod|mul|ashl|ashr|lshr|neg|u?cmp|popcount|clz|ctz|bswap|parity|ffs)[sdt]i[234]?' # integer helpers
+  allowed+='|__gnu_thumb1_case_[us](qi|hi|si)' # switches on ARMv6-M
   allowed+='|__aeabi_(u?idiv(mod)?|u?ldivmod|lmul|llsl|llsr|lasr|u?lcmp|mem(cpy|move|set|clr)[48]?)'
   allowed+='|__mem(cpy|move|set)_chk|__stack_chk_(fail|guard)|_GLOBAL_OFFSET_TABLE_)$' # what distributions add
   local defined undefined foreign
