@@ -30,6 +30,15 @@ inline uint32_t four_times(uint32_t byte) {
   return byte * 0x01010101;
 }
 
+// Bytes 0 and 2 of a word as halves, and the same added to halves.
+inline uint32_t even_bytes(uint32_t bytes) {
+  return static_cast<uint32_t>(__uxtb16(static_cast<int8x4_t>(bytes)));
+}
+
+inline uint32_t add_even_bytes(uint32_t halves, uint32_t bytes) {
+  return static_cast<uint32_t>(__uxtab16(static_cast<int16x2_t>(halves), static_cast<int8x4_t>(bytes)));
+}
+
 inline uint32_t distance8(uint32_t a, uint32_t b) {
   return __uqsub8(a, b) | __uqsub8(b, a);
 }

@@ -51,8 +51,8 @@ void fraction_smooth_dsp(const FractionSmoothArgs& args) {
         weights += begin;
         // Five weights in two words.
         const uint32_t four = load32(weights);
-        const uint32_t even = __uxtb16(four);
-        const uint32_t odd = __uxtb16(four >> 8);
+        const uint32_t even = even_bytes(four);
+        const uint32_t odd = even_bytes(four >> 8);
         sums = add_pair(sums, load32(levels), even << 16 >> 16 | odd << 16, center);
         sums = add_pair(sums, load32(levels + 2), even >> 16 | (odd >> 16 << 16), center);
         sums = add_pair(sums, levels[4], weights[4], center);

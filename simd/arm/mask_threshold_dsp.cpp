@@ -53,8 +53,8 @@ BSM_NOINLINE uint32_t too_few(const Scratch& scratch, uint32_t threshold) {
       BSM_UNROLL
       for (int32_t i = 0; i < 8; ++i) beyond += (__uhsub8(threshold, weight[i]) & kByteSigns) >> 7;
     }
-    even = __uxtab16(even, beyond);
-    odd = __uxtab16(odd, beyond >> 8);
+    even = add_even_bytes(even, beyond);
+    odd = add_even_bytes(odd, beyond >> 8);
   }
   const uint32_t least = twice(static_cast<uint32_t>(bits - bits / 4 + 1));  // beyond it, so that too few are within
   __usub16(even, least);
