@@ -44,6 +44,13 @@
 #define BSM_ARCH_DSP 0
 #endif
 
+// SVE: in files that are compiled for it.
+#if BSM_ARCH_NEON && defined(__aarch64__) && defined(__ARM_FEATURE_SVE)
+#define BSM_ARCH_SVE 1
+#else
+#define BSM_ARCH_SVE 0
+#endif
+
 // Before a loop of a constant few rounds: unrolled whole, so that arrays indexed in it live in registers.
 #if defined(__clang__)
 #define BSM_UNROLL _Pragma("unroll")

@@ -1,4 +1,4 @@
-// The sub-pixel fraction of a winner, for the winner kernels of M-profile processors.
+// The level of a winner with its fraction, shared by the kernels of winner_sums.
 #ifndef BSM_SIMD_ARM_WINNER_FRACTION_H
 #define BSM_SIMD_ARM_WINNER_FRACTION_H
 
@@ -18,7 +18,7 @@ inline int32_t fraction(uint16_t left, uint16_t center, uint16_t right) {
   return rounded < 15 ? static_cast<int32_t>(rounded) - 8 : 7;
 }
 
-// The level of the least sum, in 1/16 pixel.
+// The level in 1/16 pixel of a pixel whose least sum is that of the level `winner`.
 inline uint16_t winning_level(const WinnerSumsArgs& args, const uint16_t* sums, int32_t winner) {
   int32_t sixteenths = winner << kLevelShift;
   const bool inside = 0 < winner && winner + 1 < args.num_disparities;

@@ -4,23 +4,13 @@
 
 #if BSM_ARCH_NEON
 #include "simd/arm/neon.h"
+#include "simd/arm/winner_fraction.h"
 #include "simd/kernels.h"
 
 namespace bsm {
 namespace {
 
 constexpr int32_t kAtOnce = 8;  // at once
-
-// Equiangular fit through (d - 1, left), (d, center), (d + 1, right), center the least: sixteenths of a pixel, -8..7.
-inline int32_t fraction(uint16_t left, uint16_t center, uint16_t right) {
-  const int32_t a = left - center;
-  const int32_t b = right - center;
-  const int32_t larger = a < b ? b : a;
-  if (larger == 0) return 0;
-  // floor(8 (a - b) / larger + 1/2), with a numerator that is never negative: a - b >= -larger.
-  const uint32_t rounded = static_cast<uint32_t>(16 * (a - b) + 17 * larger) / static_cast<uint32_t>(2 * larger);
-  return rounded < 15 ? static_cast<int32_t>(rounded) - 8 : 7;
-}
 
 // A byte of all ones for each sum that equals the value, the first sum lowest.
 inline uint64_t equal_bytes(uint16x8_t sums, uint16x8_t value) {
@@ -57,13 +47,7 @@ void winner_sums_neon(const WinnerSumsArgs& args) {
     const uint16_t smallest = least16(least);
     args.level[x] = kNoLevel;
     if (smallest == kNoCost) continue;
-    const int32_t winner = find(sums, vdupq_n_u16(smallest));
-    int32_t sixteenths = winner << kLevelShift;
-    const bool inside = 0 < winner && winner + 1 < args.num_disparities;
-    if (args.subpixel != 0 && inside && sums[winner - 1] != kNoCost && sums[winner + 1] != kNoCost) {
-      sixteenths += fraction(sums[winner - 1], smallest, sums[winner + 1]);
-    }
-    args.level[x] = static_cast<uint16_t>(sixteenths);
+    args.level[x] = winning_level(args, sums, find(sums, vdupq_n_u16(smallest)));
   }
 }
 

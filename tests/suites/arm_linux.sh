@@ -21,5 +21,8 @@ cross() {
   for entry in "$@"; do emulate "$suite" "$build" "${entry%%:*}" "${entry#*:}" "$emulator" -L "/usr/$triple"; done
 }
 
-run_arm64() { cross arm64 aarch64-linux-gnu qemu-aarch64 cortex-a53:neon; }
+run_arm64() {
+  cross arm64 aarch64-linux-gnu qemu-aarch64 cortex-a53:neon cortex-a76:neon a64fx:sve max,sve128=on:sve max,sve256=on:sve \
+    max,sve-default-vector-length=256:sve
+}
 run_arm32() { cross arm32 arm-linux-gnueabihf qemu-arm cortex-a7:neon cortex-a9,neon=off:scalar; }
