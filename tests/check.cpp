@@ -95,10 +95,11 @@ void report_failure(const char* file, int line, const std::string& text) {
   std::fflush(stdout);
 }
 
-}  // namespace bsm::test
+int failures() {
+  return case_failures;
+}
 
-int main(int argc, char** argv) {
-  using namespace bsm::test;
+int run_cases(int argc, char** argv) {
   std::string filter;
   bool list_only = false;
   for (int i = 1; i < argc; ++i) {
@@ -154,3 +155,5 @@ int main(int argc, char** argv) {
   if (failed) return 1;
   return passed == 0 ? kExitSkipped : 0;
 }
+
+}  // namespace bsm::test

@@ -1,6 +1,6 @@
 // check.h - the test harness: named cases, checks that print file, line and both values, and skips that name their reason.
 //
-// A test program is any number of TEST_CASE blocks linked with check.cpp, which has main(). It exits with 0 when every case
+// A test program is any number of TEST_CASE blocks linked with check_main.cpp. It exits with 0 when every case
 // passed, 1 when one failed, and 77 when every case was skipped. Each skip prints "SKIPPED: case: reason".
 #ifndef BSM_TESTS_CHECK_H
 #define BSM_TESTS_CHECK_H
@@ -15,10 +15,10 @@
 namespace bsm::test {
 
 // True where the code runs several times slower than a user's build: sanitizers or no optimisation.
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool kSanitized = true;
 #elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(undefined_behavior_sanitizer)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(undefined_behavior_sanitizer)
 inline constexpr bool kSanitized = true;
 #else
 inline constexpr bool kSanitized = false;
@@ -61,6 +61,12 @@ struct Registrar {
 };
 
 void report_failure(const char* file, int line, const std::string& text);
+
+// Checks that have failed since the case began.
+int failures();
+
+// What main() does.
+int run_cases(int argc, char** argv);
 
 template <typename T>
 std::string text_of(const T& value) {

@@ -105,7 +105,8 @@ TEST_CASE(yuv_formats_agree) {
     const EncodedPair nv12 = encode(make_pair(rng, kAllContents[i % 6], config.width, config.height), BSM_FORMAT_NV12);
     const Maps expected = match_frame(config, nv12);
     check_same(match_rows(config, nv12), expected);
-    for (const auto& [format, change] : {std::pair(BSM_FORMAT_NV21, to_nv21), std::pair(BSM_FORMAT_YUYV, to_yuyv)}) {
+    for (const bsm_format format : {BSM_FORMAT_NV21, BSM_FORMAT_YUYV}) {
+      const auto change = format == BSM_FORMAT_NV21 ? to_nv21 : to_yuyv;
       config.format = format;
       const Scope scope(describe(config));
       check_same(match_frame(config, convert(nv12, change)), expected);

@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC2154  # root, jobs and the counts are run.sh's
-# The native tests with AddressSanitizer and UndefinedBehaviorSanitizer.
+# The native tests with AddressSanitizer and UndefinedBehaviorSanitizer; those that run threads with ThreadSanitizer.
 
 run_asan() {
   local sanitizers="-fsanitize=address,undefined,alignment -fno-sanitize-recover=all -fno-omit-frame-pointer"
@@ -9,4 +9,14 @@ run_asan() {
     return
   fi
   run_suite asan asan . -DCMAKE_BUILD_TYPE=RelWithDebInfo "-DCMAKE_C_FLAGS=$sanitizers" "-DCMAKE_CXX_FLAGS=$sanitizers"
+}
+
+run_tsan() {
+  local sanitizer=-fsanitize=thread
+  if ! links 'int main() { return 0; }' "${CXX:-c++}" $sanitizer; then
+    skipped+=("tsan: ${CXX:-c++} does not link $sanitizer; install its runtime (Debian: libtsan2)")
+    return
+  fi
+  run_suite tsan tsan '^test_(sequence|stream)$' -DCMAKE_BUILD_TYPE=RelWithDebInfo -DBSM_BUILD_BENCH=OFF \
+    "-DCMAKE_C_FLAGS=$sanitizer" "-DCMAKE_CXX_FLAGS=$sanitizer"
 }
