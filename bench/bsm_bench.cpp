@@ -37,7 +37,7 @@ int kernels_command(int argc, char** argv) {
       kKernels, "bsm_bench kernels [options]",
       "Times every kernel that this machine can run on one row of a made-up scene: nanoseconds and cycles\n"
       "per pixel or per pixel and disparity, bits per cycle, the ratio to the scalar kernel measured beside\n"
-      "it, and the share of the instruction set's bound for counting bits.");
+      "it, and the share of a bound: the operations that the stage needs at the instruction set's throughput.");
   options.word("--isa", "NAME", &bench.isa, "kernels of this instruction set alone: all, scalar, or as kernels are named");
   options.word("--filter", "TEXT", &bench.filter, "kernels whose name holds TEXT");
   options.integer("--width", "W", &bench.width, 1, BSM_MAX_SIZE, "pixels of the row");
@@ -67,6 +67,7 @@ int frame_command(int argc, char** argv) {
   options.positional("LEFT", &bench.left);
   options.positional("RIGHT", &bench.right);
   bench.config.add_search(&options);
+  options.flag("--lengths", &bench.lengths, "the frame at 256, 512 .. 4096 bits (sgm: 1024) instead of its stages");
   options.integer("--repeat", "R", &bench.repeat, 1, 1000000, "runs of each stage; the median is reported");
   options.flag("--csv", &bench.csv, "comma-separated values");
   int exit_code = kExitOk;

@@ -57,6 +57,17 @@ bool measure(const host::Image8& left, const host::Image8& right, int32_t repeat
   return true;
 }
 
+// Whole frames at each length that the method takes, in turn.
+bool open_lengths(bsm_config config, Runs* runs, std::string* error) {
+  constexpr int32_t kLeast = 256;
+  const int32_t most = config.method == BSM_METHOD_SGM ? BSM_MAX_SGM_BITS : BSM_MAX_BITS;
+  for (config.bits = kLeast; config.bits <= most; config.bits *= 2) {
+    runs->push_back(std::make_unique<StageRun>());
+    if (!runs->back()->frames.open(config, error)) return false;
+  }
+  return true;
+}
+
 // Million disparity evaluations a second.
 double mde(const bsm_config& config, double milliseconds) {
   return 1e-3 * config.width * config.height * config.num_disparities / milliseconds;
@@ -81,6 +92,17 @@ std::string joined(const std::vector<std::string>& words) {
   return line;
 }
 
+Table table_of_lengths(const Runs& runs) {
+  Table table;
+  table.columns = {"bits", "ms_median", "ms_min", "mde_per_s", "arena_bytes"};
+  for (const std::unique_ptr<StageRun>& run : runs) {
+    const double ms = median(run->milliseconds);
+    table.add({std::to_string(run->config().bits), fixed(ms), fixed(run->fastest()), fixed(mde(run->config(), ms), 1),
+               std::to_string(run->frames.arena_bytes())});
+  }
+  return table;
+}
+
 void print_csv(const FrameBench& bench, const Runs& runs) {
   Table table;
   table.columns = {"stage",       "ms_min", "ms_median", "ms_stage", "mde_per_s", "width",   "height",      "min_disparity",
@@ -98,18 +120,29 @@ void print_csv(const FrameBench& bench, const Runs& runs) {
   std::fputs(to_csv(table).c_str(), stdout);
 }
 
+// Sizes, settings, threads and kernels of a run.
+void print_heading(const FrameBench& bench, const StageRun& run, const std::string& bits) {
+  const bsm_config& c = run.config();
+  std::printf("%d x %d pixels, %s, disparities %d..%d; preset %s: %s, %s bits%s\n", static_cast<int>(c.width),
+              static_cast<int>(c.height), host::format_name(c.format), static_cast<int>(c.min_disparity),
+              static_cast<int>(c.min_disparity + c.num_disparities - 1), bench.config.preset(), host::method_name(c.method),
+              bits.c_str(), c.method == BSM_METHOD_SGM ? text(", %d paths", static_cast<int>(c.paths)).c_str() : "");
+  std::printf("%d thread%s, arena %.0f KB, --isa %s; kernels:\n", static_cast<int>(c.max_jobs), c.max_jobs == 1 ? "" : "s",
+              static_cast<double>(run.frames.arena_bytes()) / 1024.0, bench.config.isa.c_str());
+  for (const std::string& name : host::kernel_names(run.frames.context())) std::printf("  %s\n", name.c_str());
+}
+
+void print_lengths(const FrameBench& bench, const Runs& runs) {
+  print_heading(bench, *runs.back(), "256 and more");
+  std::printf("\nWhole frames, medians of %d runs, the lengths in turn.\n\n", static_cast<int>(bench.repeat));
+  std::fputs(to_text(table_of_lengths(runs)).c_str(), stdout);
+}
+
 void print_text(const FrameBench& bench, const Runs& runs) {
   const StageRun& whole = *runs.back();
   const bsm_config& c = whole.config();
   const double ms = median(whole.milliseconds);
-  std::printf("%d x %d pixels, %s, disparities %d..%d; preset %s: %s, %d bits%s\n", static_cast<int>(c.width),
-              static_cast<int>(c.height), host::format_name(c.format), static_cast<int>(c.min_disparity),
-              static_cast<int>(c.min_disparity + c.num_disparities - 1), bench.config.preset(), host::method_name(c.method),
-              static_cast<int>(c.bits),
-              c.method == BSM_METHOD_SGM ? text(", %d paths", static_cast<int>(c.paths)).c_str() : "");
-  std::printf("%d thread%s, arena %.0f KB, --isa %s; kernels:\n", static_cast<int>(c.max_jobs), c.max_jobs == 1 ? "" : "s",
-              static_cast<double>(whole.frames.arena_bytes()) / 1024.0, bench.config.isa.c_str());
-  for (const std::string& name : host::kernel_names(whole.frames.context())) std::printf("  %s\n", name.c_str());
+  print_heading(bench, whole, std::to_string(c.bits));
   std::printf("\nframe: %.2f ms (median of %d, least %.2f), %.0f MDE/s\n\n", ms, static_cast<int>(bench.repeat),
               whole.fastest(), mde(c, ms));
   std::printf(
@@ -141,8 +174,13 @@ bool run_frame_bench(FrameBench* bench, std::string* error) {
   config.width = left.width;
   config.height = left.height;
   Runs runs;
-  if (!open_runs(config, &runs, error) || !measure(left, right, bench->repeat, runs, error)) return false;
-  if (bench->csv) {
+  if (!(bench->lengths ? open_lengths(config, &runs, error) : open_runs(config, &runs, error))) return false;
+  if (!measure(left, right, bench->repeat, runs, error)) return false;
+  if (bench->lengths && bench->csv) {
+    std::fputs(to_csv(table_of_lengths(runs)).c_str(), stdout);
+  } else if (bench->lengths) {
+    print_lengths(*bench, runs);
+  } else if (bench->csv) {
     print_csv(*bench, runs);
   } else {
     print_text(*bench, runs);

@@ -13,6 +13,7 @@ struct FrameBench {
   std::string left, right;     // image files
   host::ConfigOptions config;  // finished
   int32_t repeat = 9;
+  bool lengths = false;  // whole frames at several descriptor lengths instead of the stages of one
   bool csv = false;
 };
 

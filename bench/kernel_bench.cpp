@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 
+#include "bench/kernel_bounds.h"
 #include "bench/kernel_inputs.h"
 #include "bench/statistics.h"
 #include "bench/table.h"
@@ -72,8 +73,7 @@ enum class Unit { kPixel, kPixelDisparity };
 struct Work {
   Unit unit;
   double units;
-  double bits;     // that a full evaluation makes or counts; 0: none
-  bool has_bound;  // bits are population counts
+  double bits;  // that a full evaluation makes or counts; 0: none
 };
 
 // Candidates of a row: pixel x meets x, x - 1 .. within the row.
@@ -85,22 +85,22 @@ double candidates(const KernelBench& bench) {
 // Bits: a descriptor or mask has n; a candidate counts n bits under its view's mask, match_hamming those of both views.
 template <class Args>
 Work work_of(const KernelBench& bench, const Args*) {
-  return {Unit::kPixel, 1.0 * bench.width, 0.0, false};
+  return {Unit::kPixel, 1.0 * bench.width, 0.0};
 }
 Work work_of(const KernelBench& bench, const DescriptorCompareArgs*) {
-  return {Unit::kPixel, 1.0 * bench.width, 1.0 * bench.width * bench.bits, false};
+  return {Unit::kPixel, 1.0 * bench.width, 1.0 * bench.width * bench.bits};
 }
 Work work_of(const KernelBench& bench, const MaskThresholdArgs*) {
-  return {Unit::kPixel, 1.0 * bench.width, 1.0 * bench.width * bench.bits, false};
+  return {Unit::kPixel, 1.0 * bench.width, 1.0 * bench.width * bench.bits};
 }
 Work work_of(const KernelBench& bench, const MatchHammingArgs*) {
-  return {Unit::kPixelDisparity, candidates(bench), 2.0 * candidates(bench) * bench.bits, true};
+  return {Unit::kPixelDisparity, candidates(bench), 2.0 * candidates(bench) * bench.bits};
 }
 Work work_of(const KernelBench& bench, const CostHammingArgs*) {
-  return {Unit::kPixelDisparity, candidates(bench), candidates(bench) * bench.bits, true};
+  return {Unit::kPixelDisparity, candidates(bench), candidates(bench) * bench.bits};
 }
 Work volume_work(const KernelBench& bench) {
-  return {Unit::kPixelDisparity, 1.0 * bench.width * bench.disparities, 0.0, false};
+  return {Unit::kPixelDisparity, 1.0 * bench.width * bench.disparities, 0.0};
 }
 Work work_of(const KernelBench& bench, const AggregateAlongArgs*) {
   return volume_work(bench);
@@ -112,34 +112,11 @@ Work work_of(const KernelBench& bench, const WinnerSumsArgs*) {
   return volume_work(bench);
 }
 
-// Most masked bits that an instruction set counts in a core cycle, registers loaded, on a core of its common width:
-//   scalar  a 64-bit word at a time: XOR, AND, 12 operations of the count by parallel sums, addition: 15 on 4 ALUs,
-//           64 * 4 / 15 = 17
-//   sse42   POPCNT of 64 bits, one a cycle; XOR, AND, POPCNT and addition also fill 4 ALUs: 64
-//   avx2    a table of half bytes: XOR, AND, AND, shift, AND, 2 VPSHUFB, 2 additions: 9 on 3 vector ALUs, 256 * 3 / 9 = 85
-//   avx512  VPOPCNTQ, one a cycle: 512
-//   neon    EOR, AND, CNT, addition of 128 bits: 4 on 2 vector pipes, 128 * 2 / 4 = 64
-// A wider core can do more: two VPOPCNTQ or three POPCNT a cycle are such cores, and words that several counts share (an XOR
-// for both views, carry-save addition before the count) save operations. match_hamming and cost_hamming may also leave out
-// work. Above 100 % is therefore possible.
-struct Bound {
-  const char* isa;
-  double bits_per_cycle;
-};
-constexpr Bound kBounds[] = {
-    {"scalar", 64.0 * 4 / 15}, {"sse42", 64.0}, {"avx2", 256.0 * 3 / 9}, {"avx512", 512.0}, {"neon", 128.0 * 2 / 4}};
-
-double bound_of(const std::string& isa) {
-  for (const Bound& bound : kBounds) {
-    if (isa == bound.isa) return bound.bits_per_cycle;
-  }
-  return 0.0;
-}
-
 // One kernel and its samples.
 struct Entry {
   std::string name, isa;
   Work work{};
+  double bound = 0.0;  // cycles of a call; 0: none is known
   std::function<void()> run;
   std::shared_ptr<Inputs> inputs;
   int64_t calls = 1;                         // of a sample
@@ -169,6 +146,7 @@ Listed list_kernel(const char* stage, const char* isa, int32_t block, void (*ker
             entry.name = name;
             entry.isa = isa;
             entry.work = work_of(bench, args.get());
+            if (const Core* core = core_of(isa)) entry.bound = bound_cycles(*core, *args);
             entry.run = [kernel, args] { kernel(*args); };
             return entry;
           }};
@@ -236,15 +214,14 @@ std::vector<std::string> cells_of(const Entry& entry, double scalar, double cycl
   const double nanoseconds = median(entry.nanoseconds);
   const double cycles = nanoseconds / cycle;
   const double rate = entry.work.bits / cycles;
-  const double bound = entry.work.has_bound ? bound_of(entry.isa) : 0.0;
   std::vector<std::string> cells = {entry.name, entry.work.unit == Unit::kPixel ? "px" : "px*disp"};
   cells.push_back(digits(nanoseconds / entry.work.units));
   cells.push_back(kHasReference ? digits(median(entry.counted) / entry.work.units) : "");
   cells.push_back(kHasCoreClock ? digits(cycles / entry.work.units) : "");
   cells.push_back(kHasCoreClock && entry.work.bits > 0 ? fixed(rate, rate < 10 ? 2 : 1) : "");
   cells.push_back(fixed(scalar / nanoseconds, 2));
-  cells.push_back(kHasCoreClock && bound > 0 ? fixed(bound, 0) : "");
-  cells.push_back(kHasCoreClock && bound > 0 ? fixed(100 * rate / bound, 0) : "");
+  cells.push_back(kHasCoreClock && entry.bound > 0 ? digits(entry.bound / entry.work.units) : "");
+  cells.push_back(kHasCoreClock && entry.bound > 0 ? fixed(100 * entry.bound / cycles, 0) : "");
   cells.push_back(fixed(entry.spread(), 2));
   return cells;
 }
@@ -258,8 +235,9 @@ void print_text(const KernelBench& bench, const Table& table, double cycle, size
   std::printf(
       "ns, ref (cycles of the x86 time stamp counter) and cycles (of the core) are per pixel, or per pixel and disparity:\n"
       "candidates for match and cost, all levels for aggregate and winner. bits/cycle: bits made, or counted under masks\n"
-      "(match: of both views), in a core cycle, as if nothing were skipped; bound: the same at most, see kernel_bench.cpp;\n"
-      "x scalar: times as fast as scalar; max/min: of the samples.\n\n");
+      "(match: of both views), in a core cycle, as if nothing were skipped; x scalar: times as fast as scalar; bound: "
+      "cycles\n"
+      "at least, by the count of operations in kernel_bounds.cpp; max/min: of the samples.\n\n");
   std::fputs(to_text(table).c_str(), stdout);
   if (noisy > 0) {
     std::printf("\nNote: %zu of %zu kernels have samples more than %.0f times apart; the machine is busy.\n", noisy,
