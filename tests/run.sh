@@ -112,14 +112,14 @@ add_ctest_row() {
   grep -q ' test_targets ' "$2" && add_target_row "$1" "$(uname -m), this one" "$result" "$(cat "$3")"
 }
 
-# run_suite NAME FOLDER CTEST_PATTERN CMAKE_OPTION...
+# run_suite NAME FOLDER CTEST_PATTERN CMAKE_OPTION...; the variable `targets` of the caller names what to build, if not everything.
 run_suite() {
   local suite=$1 build=$root/build/$2 pattern=$3 before=$((passed + ${#failed[@]} + ${#skipped[@]}))
   shift 3
   mkdir -p "$build"
   echo "== $suite: building in $build"
   if ! { cmake -S "$root" -B "$build" -DBSM_BUILD_TESTS=ON -DBSM_BUILD_PROGRAM=ON -DBSM_WERROR=ON "$@" &&
-    cmake --build "$build" --parallel "$jobs"; } > "$build/build.log" 2>&1; then
+    cmake --build "$build" --parallel "$jobs" ${targets:+--target $targets}; } > "$build/build.log" 2>&1; then
     cat "$build/build.log"
     failed+=("$suite build (the output is above and in $build/build.log)")
     return

@@ -21,6 +21,8 @@ run_fuzz() {
     return
   }
   local flags="-fsanitize=address,undefined -fno-sanitize-recover=all" runtime
+  # shellcheck disable=SC2034  # read by run_suite
+  local targets="fuzz_config fuzz_pnm"
   runtime=libclang-rt-$(clang++ -dumpversion | cut -d. -f1)-dev
   # shellcheck disable=SC2086
   if ! links "$fuzz_program" clang++ -fsanitize=fuzzer $flags && ! { install_packages "$runtime" > /dev/null 2>&1 &&

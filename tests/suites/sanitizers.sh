@@ -13,6 +13,8 @@ run_asan() {
 
 run_tsan() {
   local sanitizer=-fsanitize=thread
+  # shellcheck disable=SC2034  # read by run_suite
+  local targets="test_sequence test_stream"
   if ! links 'int main() { return 0; }' "${CXX:-c++}" $sanitizer; then
     skipped+=("tsan: ${CXX:-c++} does not link $sanitizer; install its runtime (Debian: libtsan2)")
     return
