@@ -25,7 +25,7 @@ suites=native
 for option in "$@"; do
   case $option in
     --asan) suites=asan ;;
-    --all) suites="native tiers arm64 arm32 embedding options cortexm clang asan tsan fuzz" ;;
+    --all) suites="native tiers arm64 arm32 embedding packages options cortexm clang asan tsan fuzz" ;;
     -h | --help)
       usage
       exit 0

@@ -27,6 +27,7 @@ package_of() {
     c++ | g++) echo g++ ;;
     cc | gcc) echo gcc ;;
     clang++ | clang) echo clang ;;
+    javac | java) echo openjdk-17-jdk-headless ;;
     ninja) echo ninja-build ;;
     aarch64-linux-gnu-g++) echo g++-aarch64-linux-gnu ;;
     arm-linux-gnueabihf-g++) echo g++-arm-linux-gnueabihf ;;
