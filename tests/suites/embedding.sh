@@ -66,7 +66,7 @@ check_amalgamation() {
   expect "amalgamation, written" cmake --build "$native" --target bsm_amalgamation || return
   if expect "amalgamation, compiles under all flags" build "$here/amalgamation" "$out/amalgamation" all "-DBUILD=$native"; then
     features=$("$native/platform/host/bsm" info | sed -n 's/^CPU features: //p')
-    for isa in scalar sse42 avx2 avx512 neon; do
+    for isa in scalar sse42 avx2 avx512 neon sve; do
       if [ ! -x "$out/amalgamation/c99_$isa" ]; then
         continue # another machine's
       elif [ $isa != scalar ] && [[ " $features " != *" ${isa/avx512/avx512vpopcntdq} "* ]]; then
@@ -86,7 +86,7 @@ check_amalgamation() {
     "-DCMAKE_TOOLCHAIN_FILE=$root/toolchains/aarch64-linux-gnu.cmake" -DCMAKE_BUILD_TYPE=Release -DBSM_WERROR=ON -DBSM_BUILD_BENCH=OFF &&
     expect "amalgamation for AArch64, compiles" build "$here/amalgamation" "$out/amalgamation-arm64" all "-DBUILD=$machine" \
       "-DAMALGAMATION=$native/amalgamation" "-DCMAKE_TOOLCHAIN_FILE=$root/toolchains/aarch64-linux-gnu.cmake"; then
-    run_amalgamation "$out/amalgamation-arm64" "qemu-aarch64 -L /usr/aarch64-linux-gnu" neon
+    run_amalgamation "$out/amalgamation-arm64" "qemu-aarch64 -L /usr/aarch64-linux-gnu" neon sve
   fi
 }
 
