@@ -44,8 +44,8 @@
 #define BSM_ARCH_DSP 0
 #endif
 
-// SVE: in files that are compiled for it.
-#if BSM_ARCH_NEON && defined(__aarch64__) && defined(__ARM_FEATURE_SVE)
+// SVE: on Linux and Android, which report it.
+#if BSM_ARCH_NEON && defined(__aarch64__) && defined(__linux__)
 #define BSM_ARCH_SVE 1
 #else
 #define BSM_ARCH_SVE 0

@@ -2,7 +2,7 @@
 #include "platform/compiler.h"
 #include "platform/cpu.h"
 
-#if BSM_ARCH_ARM && defined(__linux__)
+#if BSM_ARCH_NEON && defined(__linux__)
 extern "C" unsigned long getauxval(unsigned long type);  // of the C library, declared here to include none of its headers
 #endif
 
@@ -66,7 +66,7 @@ constexpr uint32_t compiled_features() {
 
 uint32_t cpu_features() {
   uint32_t features = compiled_features();
-#if defined(__linux__)
+#if BSM_ARCH_NEON && defined(__linux__)
   constexpr unsigned long kHwcap = 16;
   constexpr unsigned long kHwcap2 = 26;
   const ArmCapabilities capabilities{getauxval(kHwcap), getauxval(kHwcap2)};

@@ -12,8 +12,10 @@ Checks for a compiler, CMake and make (installs them on Debian and Ubuntu when i
 test. Exit code 0: nothing failed.
 
   --asan   build with AddressSanitizer and UndefinedBehaviorSanitizer in build/asan and run that instead
-  --all    the native build, the kernels of older x86 processors and of ARM under emulation, a build with clang, the
-           sanitizers, and the fuzzers for a short fixed count; what this machine lacks is listed as skipped
+  --all    the native build; the kernels of older x86 processors and of ARM, other Linux machines and Cortex-M boards under
+           emulation; objects for systems whose SDK is not here; embedding in other projects; a build with clang, the
+           sanitizers, and the fuzzers for a short fixed count. Installs compilers and emulators on Debian and Ubuntu when it
+           may; what this machine lacks is listed as skipped
   --help   this text
 
 Environment: BSM_DATA names a folder of real pairs with ground truth (v2/tsukuba, v2/venus, v2/teddy, v2/cones);
@@ -25,7 +27,9 @@ suites=native
 for option in "$@"; do
   case $option in
     --asan) suites=asan ;;
-    --all) suites="native tiers arm64 arm32 embedding packages options cortexm clang asan tsan fuzz" ;;
+    --all)
+      suites="native tiers arm64 arm32 armv5 riscv64 s390x nosdk embedding packages options cortexm clang asan tsan fuzz"
+      ;;
     -h | --help)
       usage
       exit 0

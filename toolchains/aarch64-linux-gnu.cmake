@@ -1,12 +1,5 @@
-# 64-bit ARM Linux (Debian: g++-aarch64-linux-gnu); tests run under qemu-aarch64 where it is installed (Debian: qemu-user).
-# The environment variable QEMU_CPU chooses the processor, as in QEMU_CPU=cortex-a53.
-set(CMAKE_SYSTEM_NAME Linux)
+# 64-bit ARM Linux.
+set(bsm_triple aarch64-linux-gnu)
+set(bsm_emulator qemu-aarch64)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
-set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
-set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
-set(CMAKE_FIND_ROOT_PATH /usr/aarch64-linux-gnu)
-set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
-set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
-set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
-set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
-set(CMAKE_CROSSCOMPILING_EMULATOR "qemu-aarch64;-L;/usr/aarch64-linux-gnu")
+include(${CMAKE_CURRENT_LIST_DIR}/linux_gnu.cmake)

@@ -29,10 +29,10 @@ package_of() {
     clang++ | clang) echo clang ;;
     javac | java) echo openjdk-17-jdk-headless ;;
     ninja) echo ninja-build ;;
-    aarch64-linux-gnu-g++) echo g++-aarch64-linux-gnu ;;
-    arm-linux-gnueabihf-g++) echo g++-arm-linux-gnueabihf ;;
-    llvm-mca-16) echo llvm-16 ;;
-    qemu-aarch64 | qemu-arm | qemu-x86_64) echo qemu-user ;;
+    *-linux-gnu*-g++) echo "g++-${1%-g++}" ;;
+    clang++-16) echo clang-16 ;;
+    llvm-mca-16 | llvm-ar-16) echo llvm-16 ;;
+    qemu-aarch64 | qemu-arm | qemu-riscv64 | qemu-s390x | qemu-x86_64) echo qemu-user ;;
     arm-none-eabi-*) echo gcc-arm-none-eabi ;;
     *) echo "$1" ;;
   esac

@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC2154  # root, jobs and the counts are run.sh's
-# Kernels of ARM Linux processors, under emulation.
+# Linux on other processors, under emulation: ARM with its kernels, and machines that run the scalar ones.
 
 # cross SUITE TRIPLE EMULATOR CPU:ISA...
 cross() {
@@ -26,3 +26,16 @@ run_arm64() {
     max,sve-default-vector-length=256:sve
 }
 run_arm32() { cross arm32 arm-linux-gnueabihf qemu-arm cortex-a7:neon cortex-a9,neon=off:scalar; }
+
+# Machines without kernels of their own: no floating-point unit (ARMv5TE), RISC-V, and big-endian.
+run_armv5() {
+  # shellcheck disable=SC2034  # read by expect
+  local suite=armv5
+  cross armv5 arm-linux-gnueabi qemu-arm arm926:scalar
+  if [ -f "$root/build/armv5/core/libbsm.a" ]; then
+    expect "no floating point, memory functions and integer helpers alone" \
+      env NM=arm-linux-gnueabi-nm OBJDUMP=arm-linux-gnueabi-objdump bash "$root/tests/proofs.sh" symbols "$root/build/armv5/core/libbsm.a"
+  fi
+}
+run_riscv64() { cross riscv64 riscv64-linux-gnu qemu-riscv64 rv64:scalar; }
+run_s390x() { cross s390x s390x-linux-gnu qemu-s390x max:scalar; }

@@ -1,0 +1,16 @@
+# Objects for any system that clang knows, without its SDK: proves that the library compiles there with the C headers that come
+# with the compiler alone. BSM_TARGET is clang's name of the machine, as in -DBSM_TARGET=arm64-apple-ios12; BSM_ARCHS, where the
+# system has them, several machines at once, as in "-DBSM_ARCHS=x86_64;arm64" for macOS. (Debian: clang-16, llvm-16.)
+set(CMAKE_SYSTEM_NAME Generic)
+set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
+set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES BSM_TARGET BSM_ARCHS)
+set(CMAKE_C_COMPILER clang-16)
+set(CMAKE_CXX_COMPILER clang++-16)
+set(CMAKE_AR llvm-ar-16)
+set(CMAKE_RANLIB llvm-ranlib-16)
+set(bsm_flags "--target=${BSM_TARGET} -ffreestanding -nostdlibinc")
+foreach(arch ${BSM_ARCHS})
+  string(APPEND bsm_flags " -arch ${arch}")
+endforeach()
+set(CMAKE_C_FLAGS_INIT "${bsm_flags}")
+set(CMAKE_CXX_FLAGS_INIT "${bsm_flags}")
