@@ -1,7 +1,7 @@
 // mask_threshold, AVX-512 BW, VBMI, GFNI: 64 neighbouring pixels at once.
 // The SAD of every window offset in use is one byte a pixel, saturated at 255. A pass tries eight thresholds: bit j of a
 // byte says that the SAD is within threshold j, a pair is one AND, and carry-save adders count each of the 512 bits over all
-// pairs: 3 operations and 2 loads for 512 (pixel, threshold, pair) triples. Two or three passes find T. With T known, one
+// pairs: 3 operations and 2 loads for 512 (pixel, threshold, pair) triples. Two passes find most T. With T known, one
 // compare an offset gives a word of 64 pixels and each pair is one AND of two words.
 #include "platform/compiler.h"
 
@@ -131,12 +131,11 @@ constexpr Thresholds make_thresholds(const int32_t (&limits)[8]) {
   return table;
 }
 
-// The first pass: finer where thresholds of photographs lie.
-constexpr int32_t kFirstLimits[8] = {4, 9, 14, 19, 24, 30, 39, 55};
-alignas(64) constexpr Thresholds kFirst = make_thresholds(kFirstLimits);
-alignas(64) constexpr Thresholds kBy1 = make_thresholds({0, 1, 2, 3, 4, 5, 6, 7});
-alignas(64) constexpr Thresholds kBy4 = make_thresholds({3, 7, 11, 15, 19, 23, 27, 31});
-alignas(64) constexpr Thresholds kBy7 = make_thresholds({6, 13, 20, 27, 34, 41, 48, 55});  // of quarters: by 28
+// The first pass: thresholds kFirstLeast + these, so that below 71, where most are, no bracket is wider than the nine values
+// that one pass by ones tells apart.
+constexpr int32_t kFirstLeast = 8;
+alignas(64) constexpr Thresholds kFirst = make_thresholds({0, 9, 18, 27, 36, 45, 54, 62});
+alignas(64) constexpr Thresholds kNext = make_thresholds({0, 1, 2, 3, 4, 5, 6, 7});
 
 // How many thresholds of a byte are not enough.
 inline __m512i count_failed(__m512i result) {
@@ -153,35 +152,36 @@ struct Bracket {
 
 inline Bracket first_bracket(Scratch& scratch, int32_t bits) {
   const __m512i table = _mm512_load_si512(kFirst.within);
+  const __m512i least = _mm512_set1_epi8(kFirstLeast);
   const __m512i last = _mm512_set1_epi8(63);
   for (int32_t i = 0; i < scratch.points.count; ++i) {
-    const __m512i sad = _mm512_min_epu8(_mm512_load_si512(scratch.sad[i]), last);
-    _mm512_store_si512(scratch.within[i], _mm512_permutexvar_epi8(sad, table));
+    const __m512i above = _mm512_min_epu8(_mm512_subs_epu8(_mm512_load_si512(scratch.sad[i]), least), last);
+    _mm512_store_si512(scratch.within[i], _mm512_permutexvar_epi8(above, table));
   }
   const __m512i failed = count_failed(enough(scratch, bits));
-  const __m512i low = _mm512_broadcast_i32x4(_mm_setr_epi8(0, 5, 10, 15, 20, 25, 31, 40, 56, 0, 0, 0, 0, 0, 0, 0));
-  const __m512i high = _mm512_broadcast_i32x4(_mm_setr_epi8(4, 9, 14, 19, 24, 30, 39, 55, -1, 0, 0, 0, 0, 0, 0, 0));
+  const __m512i low = _mm512_broadcast_i32x4(_mm_setr_epi8(0, 9, 18, 27, 36, 45, 54, 63, 71, 0, 0, 0, 0, 0, 0, 0));
+  const __m512i high = _mm512_broadcast_i32x4(_mm_setr_epi8(8, 17, 26, 35, 44, 53, 62, 70, -1, 0, 0, 0, 0, 0, 0, 0));
   return Bracket{_mm512_shuffle_epi8(low, failed), _mm512_shuffle_epi8(high, failed)};
 }
 
-inline void narrow(Scratch& scratch, int32_t bits, int32_t step, Bracket& bracket) {
-  const __m512i table = _mm512_load_si512(step == 1 ? kBy1.within : step == 4 ? kBy4.within : kBy7.within);
+// A pass over the next eight thresholds of each pixel: one apart, eight apart for the pixels of `wide`.
+inline void narrow(Scratch& scratch, int32_t bits, __mmask64 wide, Bracket& bracket) {
+  const __m512i table = _mm512_load_si512(kNext.within);
   const __m512i last = _mm512_set1_epi8(63);
+  const __m512i eighth = _mm512_set1_epi8(31);
   for (int32_t i = 0; i < scratch.points.count; ++i) {
     __m512i above = _mm512_subs_epu8(_mm512_load_si512(scratch.sad[i]), bracket.low);
-    if (step == 28) {
-      above = _mm512_and_si512(_mm512_srli_epi16(above, 2), last);
+    if (wide != 0) {
+      const __m512i by_eight = _mm512_and_si512(_mm512_srli_epi16(above, 3), eighth);
+      above = _mm512_mask_mov_epi8(_mm512_min_epu8(above, last), wide, by_eight);
     } else {
       above = _mm512_min_epu8(above, last);
     }
     _mm512_store_si512(scratch.within[i], _mm512_permutexvar_epi8(above, table));
   }
   const __m512i failed = count_failed(enough(scratch, bits));
-  __m512i rise = failed;  // times step, at most 224
-  if (step == 4) rise = _mm512_slli_epi16(failed, 2);
-  if (step == 28) rise = _mm512_sub_epi8(_mm512_slli_epi16(failed, 5), _mm512_slli_epi16(failed, 2));
-  bracket.low = _mm512_adds_epu8(bracket.low, rise);
-  const __m512i top = _mm512_adds_epu8(bracket.low, _mm512_set1_epi8(static_cast<char>(step - 1)));
+  bracket.low = _mm512_adds_epu8(bracket.low, _mm512_mask_mov_epi8(failed, wide, _mm512_slli_epi16(failed, 3)));
+  const __m512i top = _mm512_adds_epu8(bracket.low, _mm512_maskz_set1_epi8(wide, 7));
   const __mmask64 open = _mm512_cmpeq_epi8_mask(failed, _mm512_set1_epi8(8));
   bracket.high = _mm512_mask_min_epu8(bracket.high, ~open, bracket.high, top);
 }
@@ -192,9 +192,7 @@ inline __m512i find_threshold(Scratch& scratch, int32_t bits, __mmask64 wanted) 
   for (;;) {
     const __m512i width = _mm512_maskz_sub_epi8(wanted, bracket.high, bracket.low);
     if (_mm512_test_epi8_mask(width, width) == 0) return bracket.low;
-    const bool wide = _mm512_cmpgt_epu8_mask(width, _mm512_set1_epi8(35)) != 0;
-    const bool narrow_all = _mm512_cmpgt_epu8_mask(width, _mm512_set1_epi8(16)) == 0;
-    narrow(scratch, bits, narrow_all ? 1 : wide ? 28 : 4, bracket);
+    narrow(scratch, bits, _mm512_cmpgt_epu8_mask(width, _mm512_set1_epi8(8)), bracket);
   }
 }
 
