@@ -25,6 +25,10 @@ bsm_config balanced(const Inputs& inputs) {
   return config;
 }
 
+Pattern take_pattern(Inputs& inputs) {
+  return local_pattern(inputs.bits, inputs.take<PixelPair>(static_cast<size_t>(inputs.bits)));
+}
+
 // A texture: slow changes with a step now and then, other rows alike.
 template <typename T>
 void fill_texture(Rng& rng, int32_t count, int32_t most, T* values) {
@@ -175,7 +179,7 @@ void prepare(Inputs& inputs, kernel_scratch_fn*, ColorLabArgs* args) {
 }
 
 void prepare(Inputs& inputs, kernel_scratch_fn* scratch, DescriptorCompareArgs* args) {
-  const Pattern pattern = local_pattern(inputs.bits);
+  const Pattern pattern = take_pattern(inputs);
   const int32_t values = inputs.width + 2 * pattern.radius;
   for (int32_t i = 0; i <= 2 * pattern.radius; ++i) {
     uint16_t* const row = inputs.take<uint16_t>(static_cast<size_t>(values + inputs.block));
@@ -188,7 +192,7 @@ void prepare(Inputs& inputs, kernel_scratch_fn* scratch, DescriptorCompareArgs* 
 }
 
 void prepare(Inputs& inputs, kernel_scratch_fn* scratch, MaskThresholdArgs* args) {
-  const Pattern pattern = local_pattern(inputs.bits);
+  const Pattern pattern = take_pattern(inputs);
   const ptrdiff_t stride = take_lab(inputs, 2 * pattern.radius + 1, pattern.radius);
   uint8_t* const out = inputs.take<uint8_t>(count_of(inputs.width, inputs.bits / 8));
   *args = MaskThresholdArgs{

@@ -3,6 +3,7 @@
 #include "core/config.h"
 #include "core/context.h"
 #include "core/engine.h"
+#include "core/pattern.h"
 #include "core/refine.h"
 #include "core/weights.h"
 #include "platform/compiler.h"
@@ -61,6 +62,12 @@ BSM_NOINLINE uint64_t arena_bytes(const bsm_config& config, const Kernels& kerne
   Plan plan;
   make_plan(config, kernels, sizeof(bsm_context), &plan);
   return plan.bytes + kArenaAlignment - 1;
+}
+
+Pattern pattern_of(const bsm_context& context) {
+  PixelPair* pairs = reinterpret_cast<PixelPair*>(context.arena + context.plan.pairs);
+  const bsm_config& config = context.config;
+  return has_sgm_pattern(config) ? sgm_pattern(config.bits, pairs) : local_pattern(config.bits, pairs);
 }
 
 // Exponents of the refinement's distances, which depend on the configuration alone.
@@ -124,8 +131,8 @@ extern "C" bsm_status bsm_open(const bsm_config* config, void* arena, size_t byt
   opened->arena = base;
   opened->config = *config;
   opened->kernels = select_kernels(cpu_features() & config->isa_mask);
-  opened->pattern = pattern_of(*config);
   make_plan(*config, opened->kernels, sizeof(bsm_context), &opened->plan);
+  opened->pattern = pattern_of(*opened);
   make_distance_steps(opened);
   engine_reset(opened);
   *context = opened;

@@ -1,4 +1,5 @@
-// The pair pattern of the descriptors (section 3.1): a table made at compile time, the same on every machine.
+// The pair patterns of the descriptors (section 3.1), the same on every machine. They are made when a context opens: the
+// generator is shorter than the pairs.
 #ifndef BSM_CORE_PATTERN_H
 #define BSM_CORE_PATTERN_H
 
@@ -8,12 +9,15 @@
 
 namespace bsm {
 
-// The first `bits` pairs of the local method's table: isotropic Gaussian offsets of sigma 4, truncated toward zero, inside a
-// window of 26 x 26 pixels (|offset| < 13), no pair of two equal points. Nested: a shorter descriptor is a prefix.
-Pattern local_pattern(int32_t bits);
+constexpr int32_t kLocalRadius = kMaxPatternRadius;
+constexpr int32_t kSgmRadius = 8;
 
-// The same for sgm: sigma 2.5, offsets below 9, 1024 pairs.
-Pattern sgm_pattern(int32_t bits);
+// Writes the first `bits` pairs of the local method: isotropic Gaussian offsets of sigma 4, truncated toward zero, inside a
+// window of 26 x 26 pixels (|offset| < 13), no pair of two equal points. Nested: a shorter descriptor is a prefix.
+Pattern local_pattern(int32_t bits, PixelPair* pairs);
+
+// The same for sgm: sigma 2.5, offsets below 9.
+Pattern sgm_pattern(int32_t bits, PixelPair* pairs);
 
 }  // namespace bsm
 

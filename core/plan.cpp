@@ -46,7 +46,7 @@ bool is_sgm(const bsm_config& config) {
 // Stages that run and their radii.
 void plan_stages(const bsm_config& config, Plan* plan) {
   const bool refined = config.stage == BSM_STAGE_REFINED;
-  plan->pattern_radius = pattern_of(config).radius;
+  plan->pattern_radius = has_sgm_pattern(config) ? kSgmRadius : kLocalRadius;
   plan->speckle_radius = refined && config.speckle != 0 ? kSpeckleRadius : 0;
   plan->border_radius = refined && config.border != 0 ? kBorderRadius : 0;
   plan->vote_radius = refined ? config.vote_radius : 0;
@@ -129,9 +129,8 @@ JobPlan plan_job(const bsm_config& config, const Kernels& kernels, const Plan& p
 
 }  // namespace
 
-Pattern pattern_of(const bsm_config& config) {
-  const bool sgm = !kHasLocal || (kHasSgm && config.method == BSM_METHOD_SGM);
-  return sgm ? sgm_pattern(config.bits) : local_pattern(config.bits);
+bool has_sgm_pattern(const bsm_config& config) {
+  return !kHasLocal || (kHasSgm && config.method == BSM_METHOD_SGM);
 }
 
 int32_t row_delay(const bsm_config& config) {
@@ -183,6 +182,7 @@ void make_plan(const bsm_config& config, const Kernels& kernels, uint64_t contex
 
   Carver carver;
   carver.take(context_bytes);
+  plan.pairs = carver.take(static_cast<uint32_t>(config.bits) * sizeof(PixelPair));
   for (int32_t view = 0; view < kViews; ++view) {
     const bool wanted = view == kLeft || config.right_map != 0;
     const int32_t lab_rows = largest(refined && wanted ? refine_lab_rows : window_rows, view == kLeft ? edge_lab_rows : 0);

@@ -94,6 +94,7 @@ struct Plan {
   Ring fraction_weight[kViews];
   Ring fraction_once[kViews];  // after the first pass
   Ring margin;                 // sgm with confidence: one byte a pixel
+  uint64_t pairs;              // of the pattern
   uint64_t vote_steps;
   uint64_t smooth_steps;
   uint64_t jobs;  // max_jobs times JobPlan::bytes
@@ -101,8 +102,8 @@ struct Plan {
   uint64_t bytes;  // of the whole arena when it begins at a multiple of kArenaAlignment
 };
 
-// The pair pattern of a configuration.
-Pattern pattern_of(const bsm_config& config);
+// True when the pairs are those of sgm.
+bool has_sgm_pattern(const bsm_config& config);
 
 // config is valid; context_bytes is reserved at offset 0.
 void make_plan(const bsm_config& config, const Kernels& kernels, uint64_t context_bytes, Plan* plan);

@@ -40,7 +40,7 @@ LabRows take_lab(const Trial& trial, int count, int before, int values) {
 }
 
 Pattern any_pattern(const Trial& trial) {
-  return local_pattern(trial.bits);
+  return local_pattern(trial.bits, trial.yard.take_array<PixelPair>(static_cast<size_t>(trial.bits)));
 }
 
 KernelShape shape_of(const Trial& trial, int radius, int planes, int num_disparities) {

@@ -202,7 +202,8 @@ std::vector<int16_t> values(const Levels& levels, const bsm_config& config) {
 
 ModelMaps run_model(const bsm_config& config, const ColorPair& pair) {
   const bool gray = config.format == BSM_FORMAT_GRAY8;
-  const Pattern pattern = local_pattern(config.bits);
+  std::vector<PixelPair> pairs(static_cast<size_t>(config.bits));
+  const Pattern pattern = local_pattern(config.bits, pairs.data());
   const View left = make_view(pair.left, gray, pattern), right = make_view(pair.right, gray, pattern);
   const auto refined = [&config](const Levels& levels, const View& view) {
     const Levels dense = filled(voted(levels, view, config), levels, view);

@@ -95,7 +95,8 @@ TEST_CASE(scene_bytes) {
 }
 
 TEST_CASE(pattern_bytes) {
-  const bsm::Pattern pattern = bsm::local_pattern(BSM_MAX_BITS);
+  std::vector<bsm::PixelPair> pairs(BSM_MAX_BITS);
+  const bsm::Pattern pattern = bsm::local_pattern(BSM_MAX_BITS, pairs.data());
   Hash hash;
   for (int i = 0; i < pattern.bits; ++i) {
     for (const int8_t v : {pattern.pairs[i].px, pattern.pairs[i].py, pattern.pairs[i].qx, pattern.pairs[i].qy}) {
@@ -120,7 +121,8 @@ TEST_CASE(color_bytes) {
 
 // Descriptor bytes of one row: the byte layout is part of the contract, also on big-endian machines.
 TEST_CASE(descriptor_bytes) {
-  const bsm::Pattern pattern = bsm::local_pattern(320);
+  std::vector<bsm::PixelPair> pairs(320);
+  const bsm::Pattern pattern = bsm::local_pattern(320, pairs.data());
   const bsm::Kernels kernels = bsm::select_kernels(0);
   constexpr int kRowWidth = 50;
   const int pad = pattern.radius, rows = 2 * pattern.radius + 1, stride = kRowWidth + 2 * pad;

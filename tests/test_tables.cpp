@@ -32,15 +32,20 @@ constexpr double kErrorBound = 0.5 + 0.02;
 constexpr double kVoteSteps = 64;
 constexpr double kSmoothSteps = 16;
 
-// The two pair tables.
+// The two pair patterns.
 struct PatternKind {
   const char* name;
-  bsm::Pattern (*pattern)(int32_t bits);
-  int bits;  // of the whole table
+  bsm::Pattern (*make)(int32_t bits, bsm::PixelPair* pairs);
+  int bits;  // of the longest descriptor
   double sigma;
 };
 constexpr PatternKind kPatterns[] = {{"local", bsm::local_pattern, BSM_MAX_BITS, 4},
                                      {"sgm", bsm::sgm_pattern, BSM_MAX_SGM_BITS, 2.5}};
+
+bsm::Pattern make_pattern(const PatternKind& kind, int bits, std::vector<bsm::PixelPair>* pairs) {
+  pairs->resize(static_cast<size_t>(bits));
+  return kind.make(bits, pairs->data());
+}
 
 double linear_light(int value) {
   const double c = value / 255.0;
@@ -257,7 +262,8 @@ TEST_CASE(smooth_weights_are_exponentials) {
 TEST_CASE(pattern_stays_in_the_window) {
   for (const PatternKind& kind : kPatterns) {
     const Scope scope(kind.name);
-    const bsm::Pattern pattern = kind.pattern(kind.bits);
+    std::vector<bsm::PixelPair> pairs;
+    const bsm::Pattern pattern = make_pattern(kind, kind.bits, &pairs);
     CHECK_EQ(pattern.bits, kind.bits);
     CHECK(pattern.radius <= bsm::kMaxPatternRadius);
     CHECK_LE(2 * pattern.radius + 1, 26);  // the paper's S
@@ -274,9 +280,10 @@ TEST_CASE(pattern_stays_in_the_window) {
 TEST_CASE(pattern_is_nested) {
   for (const PatternKind& kind : kPatterns) {
     const Scope scope(kind.name);
-    const bsm::Pattern full = kind.pattern(kind.bits);
+    std::vector<bsm::PixelPair> full_pairs, pairs;
+    const bsm::Pattern full = make_pattern(kind, kind.bits, &full_pairs);
     for (int bits = BSM_MIN_BITS; bits <= kind.bits; bits += 64) {
-      const bsm::Pattern prefix = kind.pattern(bits);
+      const bsm::Pattern prefix = make_pattern(kind, bits, &pairs);
       CHECK_EQ(prefix.bits, bits);
       CHECK(prefix.radius <= full.radius);
       for (int i = 0; i < bits; ++i) {
@@ -288,11 +295,12 @@ TEST_CASE(pattern_is_nested) {
 }
 
 // Each coordinate is a Gaussian truncated toward zero and cut at the window: checked by chi-square, by the moments and by
-// the independence of the four coordinates. Bounds are five standard deviations and more: the table is fixed, so that the
+// the independence of the four coordinates. Bounds are five standard deviations and more: the pairs are fixed, so that the
 // case passes for good or fails for good.
 static void check_gaussian(const PatternKind& kind, int bits) {
   const Scope scope(std::string(kind.name) + ", " + text_of(bits) + " pairs");
-  const bsm::Pattern pattern = kind.pattern(bits);
+  std::vector<bsm::PixelPair> pairs;
+  const bsm::Pattern pattern = make_pattern(kind, bits, &pairs);
   const auto phi = [&kind](double t) { return std::erf(t / kind.sigma / std::sqrt(2.0)); };  // P(|X| < t)
   const int radius = pattern.radius;
   std::vector<double> expected(static_cast<size_t>(radius) + 1);
@@ -354,8 +362,9 @@ static int repeated_pairs(const std::vector<bsm::PixelPair>& pairs) {
 TEST_CASE(pattern_repeats_pairs_no_more_than_chance) {
   Rng rng(seed());
   for (const PatternKind& kind : kPatterns) {
-    const bsm::Pattern pattern = kind.pattern(kind.bits);
-    const int repeated = repeated_pairs({pattern.pairs, pattern.pairs + pattern.bits});
+    std::vector<bsm::PixelPair> pairs;
+    const bsm::Pattern pattern = make_pattern(kind, kind.bits, &pairs);
+    const int repeated = repeated_pairs(pairs);
     // The same draw with another generator, many times.
     const auto offset = [&] {
       for (;;) {
