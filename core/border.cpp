@@ -37,9 +37,24 @@ bool begins_surface(const BorderRow& row, int32_t position) {
 }
 
 // Rounded to the nearest for a positive divisor.
-int32_t divide(int64_t value, int32_t divisor) {
-  const int64_t half = divisor / 2;
-  return static_cast<int32_t>((value < 0 ? value - half : value + half) / divisor);
+int32_t divide(int32_t value, int32_t divisor) {
+  const int32_t half = divisor / 2;
+  return (value < 0 ? value - half : value + half) / divisor;
+}
+
+// slant / spread in 2^-16, truncated toward zero and kept within kMostSlope; 0 for 0 / 0. Bit by bit: small machines have no
+// division of 64 bits. The spread stays below 2^24, so that twice a rest fits.
+int32_t slope_of(int32_t slant, int32_t spread) {
+  int32_t rest = magnitude(slant);
+  if (rest >= 2 * spread) return slant == 0 ? 0 : slant < 0 ? -kMostSlope : kMostSlope;
+  int32_t quotient = 0;
+  for (int32_t bit = 1 << 16; bit != 0; bit /= 2, rest *= 2) {
+    if (rest < spread) continue;
+    quotient += bit;
+    rest -= spread;
+  }
+  quotient = quotient < kMostSlope ? quotient : kMostSlope;
+  return slant < 0 ? -quotient : quotient;
 }
 
 }  // namespace
@@ -50,7 +65,8 @@ BorderFit fit_border(const BorderRow& row, int32_t reach) {
   while (first < end && !begins_surface(row, first)) ++first;
   if (first == end) return BorderFit{-1, 0, 0, 0, 0};
 
-  // Sums over positions and levels relative to the first pixel: at most 24 positions below 24 and levels below 23 * 24.
+  // Sums over positions and levels relative to the first pixel: at most 24 positions below 24 and levels within 23 * 24, so
+  // that the spread and the slant stay below 2^29 before they are divided.
   const int32_t base = level_at(row, first);
   int32_t count = 0, sum_p = 0, sum_l = 0, sum_pp = 0, sum_pl = 0;
   int32_t last = base;
@@ -69,8 +85,8 @@ BorderFit fit_border(const BorderRow& row, int32_t reach) {
   fit.first = first;
   fit.position = first * 256 + divide(256 * sum_p, count);
   fit.level = base * 256 + divide(256 * sum_l, count);
-  fit.spread = divide(64 * (int64_t{count} * sum_pp - int64_t{sum_p} * sum_p), count);
-  fit.slant = divide(64 * (int64_t{count} * sum_pl - int64_t{sum_p} * sum_l), count);
+  fit.spread = divide(64 * (count * sum_pp - sum_p * sum_p), count);
+  fit.slant = divide(64 * (count * sum_pl - sum_p * sum_l), count);
   return fit;
 }
 
@@ -85,10 +101,9 @@ void continue_border(const BorderRow& row, const BorderFit* const* fits, int32_t
     spread += fit->spread;
     slant += fit->slant;
   }
-  int64_t slope = spread == 0 ? 0 : (int64_t{slant} * 65536) / spread;  // in 2^-16
-  slope = slope < -kMostSlope ? -kMostSlope : slope > kMostSlope ? kMostSlope : slope;
+  const int32_t slope = slope_of(slant, spread);  // in 2^-16
   for (int32_t p = 0; p < own.first; ++p) {
-    const int64_t level = int64_t{own.level} * 65536 + slope * (p * 256 - own.position);  // in 2^-24
+    const int64_t level = int64_t{own.level} * 65536 + int64_t{slope} * (p * 256 - own.position);  // in 2^-24
     const int32_t rounded = static_cast<int32_t>((level + (1 << 23)) >> 24);
     row.first[p * row.direction] = static_cast<uint16_t>(rounded < 0 ? 0 : rounded > most ? most : rounded);
   }

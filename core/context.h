@@ -29,12 +29,12 @@ namespace bsm {
 // Row y of a ring, x = 0.
 template <class T>
 T* ring_row(const bsm_context& context, const Ring& ring, int32_t y) {
-  return reinterpret_cast<T*>(context.arena + ring.offset + static_cast<uint64_t>(y % ring.rows) * ring.stride);
+  return reinterpret_cast<T*>(context.arena + ring.offset + static_cast<size_t>(y % ring.rows) * ring.stride);
 }
 
 // A buffer of a job's scratch.
 template <class T>
-T* job_buffer(uint8_t* job, uint64_t offset) {
+T* job_buffer(uint8_t* job, size_t offset) {
   return reinterpret_cast<T*>(job + offset);
 }
 

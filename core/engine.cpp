@@ -15,7 +15,7 @@ int32_t clamp(int32_t value, int32_t least, int32_t most) {
 }
 
 uint8_t* job_base(const bsm_context& context, int32_t job) {
-  return context.arena + context.plan.jobs + static_cast<uint64_t>(job) * context.plan.job.bytes;
+  return context.arena + context.plan.jobs + static_cast<size_t>(job) * context.plan.job.bytes;
 }
 
 struct Rows {

@@ -1,4 +1,4 @@
-// Computes the memory plan. All sums are 64-bit: the largest configuration stays below 2^48 bytes.
+// Computes the memory plan. Rows fit 32 bits; sums are 64-bit: the largest configuration stays below 2^48 bytes.
 #include "core/plan.h"
 
 #include "core/border.h"
@@ -11,23 +11,25 @@
 namespace bsm {
 namespace {
 
-uint64_t round_up(uint64_t value, uint64_t multiple) {
-  return (value + multiple - 1) / multiple * multiple;
+// multiple is a power of two, as the blocks of all kernels are.
+template <class Unsigned>
+Unsigned round_up(Unsigned value, uint32_t multiple) {
+  return (value + multiple - 1) & ~Unsigned{multiple - 1};
 }
 
 // Hands out aligned pieces of a region one after the other.
 class Carver {
  public:
-  uint64_t take(uint64_t bytes) {
-    const uint64_t offset = round_up(next_, kArenaAlignment);
+  size_t take(uint64_t bytes) {
+    const uint64_t offset = used();
     next_ = offset + bytes;
-    return offset;
+    return static_cast<size_t>(offset);
   }
   // A ring whose rows have `before` bytes in front of x = 0.
-  Ring take_ring(int32_t rows, uint64_t before, uint64_t row_bytes) {
-    const uint64_t stride = round_up(row_bytes, 8);
-    const uint64_t offset = rows == 0 ? 0 : take(static_cast<uint64_t>(rows) * stride) + before;
-    return Ring{offset, rows, static_cast<uint32_t>(stride)};
+  Ring take_ring(int32_t rows, uint32_t before, uint32_t row_bytes) {
+    const uint32_t stride = round_up(row_bytes, 8);
+    const size_t offset = rows == 0 ? 0 : take(uint64_t{static_cast<uint32_t>(rows)} * stride) + before;
+    return Ring{offset, rows, stride};
   }
   uint64_t used() const { return round_up(next_, kArenaAlignment); }
 
@@ -100,18 +102,17 @@ int32_t ring_rows(const Plan& plan, int32_t writer, int32_t reader, int32_t reac
   return plan.batch + last.lag - first.lag + (last.turn - first.turn) * plan.skew + reach;
 }
 
-// Bytes of one row's costs of all levels.
-uint64_t cost_bytes(const bsm_config& config, const Plan& plan) {
-  return uint64_t{static_cast<uint32_t>(config.width)} * static_cast<uint32_t>(plan.level_stride) * sizeof(uint16_t);
+// Bytes of `values` 16-bit values.
+uint32_t bytes_of(uint32_t values) {
+  return values * static_cast<uint32_t>(sizeof(uint16_t));
 }
 
-JobPlan plan_job(const bsm_config& config, const Kernels& kernels, const Plan& plan, uint64_t width) {
-  const uint64_t descriptors = width * static_cast<uint32_t>(config.bits / 8);
+JobPlan plan_job(const bsm_config& config, const Kernels& kernels, const Plan& plan, uint32_t width) {
+  const uint32_t descriptors = width * static_cast<uint32_t>(config.bits / 8);
   const bool sgm = is_sgm(config);
   const bool right_own = sgm && config.right_costs == BSM_RIGHT_COSTS_OWN;
   const bool right_mask = plan.planes != 0 && (right_own || !sgm);
-  const uint64_t window_rows =
-      2 * static_cast<uint64_t>(largest(plan.pattern_radius, largest(plan.vote_radius, plan.smooth_radius))) + 1;
+  const int32_t window_rows = 2 * largest(plan.pattern_radius, largest(plan.vote_radius, plan.smooth_radius)) + 1;
   const KernelShape shape{config.width, config.bits, plan.pattern_radius, plan.planes, config.num_disparities};
   JobPlan job{};
   Carver carver;
@@ -120,10 +121,10 @@ JobPlan plan_job(const bsm_config& config, const Kernels& kernels, const Plan& p
     job.mask[view] = carver.take(plan.planes == 0 || (view == kRight && !right_mask) ? 0 : descriptors);
   }
   job.edge = carver.take(sgm ? width : 0);
-  job.row = carver.take(width * sizeof(uint16_t));
-  job.window = carver.take(2 * window_rows * sizeof(void*));
+  job.row = carver.take(bytes_of(width));
+  job.window = carver.take(static_cast<uint32_t>(2 * window_rows) * sizeof(void*));
   job.kernel = carver.take(kernel_scratch_bytes(kernels, shape));
-  job.bytes = carver.used();
+  job.bytes = static_cast<size_t>(carver.used());
   return job;
 }
 
@@ -173,9 +174,10 @@ void make_plan(const bsm_config& config, const Kernels& kernels, uint64_t contex
                                                             : ring_rows(plan, kVote, dense_reader, plan.median_radius));
   const int32_t all = plan.whole_frame ? config.height : 0;  // whole-frame plans keep every row between the two passes
 
-  const uint64_t width = round_up(static_cast<uint32_t>(config.width), static_cast<uint32_t>(kernels.block[kPixels]));
-  const uint64_t pad = static_cast<uint32_t>(pattern);
-  const uint64_t padded = width + 2 * pad;
+  const uint32_t width = round_up(static_cast<uint32_t>(config.width), static_cast<uint32_t>(kernels.block[kPixels]));
+  const uint32_t pad = static_cast<uint32_t>(pattern);
+  const uint32_t padded = width + 2 * pad;
+  const uint32_t level_bytes = bytes_of(width);
   plan.plane_stride = static_cast<int32_t>(padded);
   plan.level_stride = static_cast<int32_t>(
       round_up(static_cast<uint32_t>(config.num_disparities), static_cast<uint32_t>(kernels.block[kLevels])));
@@ -186,30 +188,30 @@ void make_plan(const bsm_config& config, const Kernels& kernels, uint64_t contex
   for (int32_t view = 0; view < kViews; ++view) {
     const bool wanted = view == kLeft || config.right_map != 0;
     const int32_t lab_rows = largest(refined && wanted ? refine_lab_rows : window_rows, view == kLeft ? edge_lab_rows : 0);
-    plan.luma[view] = carver.take_ring(window_rows, pad * sizeof(uint16_t), padded * sizeof(uint16_t));
+    plan.luma[view] = carver.take_ring(window_rows, bytes_of(pad), bytes_of(padded));
     plan.lab[view] =
         carver.take_ring(plan.planes == 0 ? 0 : largest(lab_rows, all), pad, padded * static_cast<uint32_t>(plan.planes));
-    plan.winner[view] = carver.take_ring(largest(winner_rows, all), 0, width * sizeof(uint16_t));
+    plan.winner[view] = carver.take_ring(largest(winner_rows, all), 0, level_bytes);
     plan.checked[view] =
-        carver.take_ring(wanted ? ring_rows(plan, kCheck, kDespeckle, plan.speckle_radius) : 0, 0, width * sizeof(uint16_t));
-    plan.level[view] = carver.take_ring(wanted ? level_rows : 0, 0, width * sizeof(uint16_t));
-    plan.fit[view] = carver.take_ring(wanted && border != 0 ? fit_rows : 0, 0, sizeof(BorderFit));
-    plan.voted[view] = carver.take_ring(wanted ? voted_rows : 0, 0, width * sizeof(uint16_t));
-    plan.fraction[view] = carver.take_ring(wanted ? ring_rows(plan, kRestore, kSmoothFraction, plan.fraction_radius) : 0, 0,
-                                           width * sizeof(uint16_t));
+        carver.take_ring(wanted ? ring_rows(plan, kCheck, kDespeckle, plan.speckle_radius) : 0, 0, level_bytes);
+    plan.level[view] = carver.take_ring(wanted ? level_rows : 0, 0, level_bytes);
+    plan.fit[view] = carver.take_ring(wanted && border != 0 ? fit_rows : 0, 0, uint32_t{sizeof(BorderFit)});
+    plan.voted[view] = carver.take_ring(wanted ? voted_rows : 0, 0, level_bytes);
+    plan.fraction[view] =
+        carver.take_ring(wanted ? ring_rows(plan, kRestore, kSmoothFraction, plan.fraction_radius) : 0, 0, level_bytes);
     plan.fraction_weight[view] =
         carver.take_ring(wanted ? ring_rows(plan, kRestore, kWrite, plan.fraction_radius) : 0, 0, width);
-    plan.fraction_once[view] = carver.take_ring(wanted ? ring_rows(plan, kSmoothFraction, kWrite, plan.fraction_radius) : 0,
-                                                0, width * sizeof(uint16_t));
+    plan.fraction_once[view] =
+        carver.take_ring(wanted ? ring_rows(plan, kSmoothFraction, kWrite, plan.fraction_radius) : 0, 0, level_bytes);
     for (int32_t pass = 0; pass < plan.smooth_passes; ++pass) {
       const bool last = kSmooth + pass == last_smooth;
       const int32_t rows =
           ring_rows(plan, kSmooth + pass, last ? dense_reader : kSmooth + pass + 1, last ? plan.median_radius : smooth);
-      plan.smoothed[pass][view] = carver.take_ring(wanted ? rows : 0, 0, width * sizeof(uint16_t));
+      plan.smoothed[pass][view] = carver.take_ring(wanted ? rows : 0, 0, level_bytes);
     }
   }
   plan.margin = carver.take_ring(sgm && confidence ? ring_rows(plan, kCheck, kWrite, 0) : 0, 0, width);
-  const uint64_t costs = cost_bytes(config, plan);
+  const uint32_t costs = bytes_of(static_cast<uint32_t>(config.width) * static_cast<uint32_t>(plan.level_stride));
   const int32_t cost_rows = sgm ? ring_rows(plan, kMatch, kAcross + plan.across_paths - 1, 0) : 0;
   plan.cost = carver.take_ring(largest(cost_rows, sgm ? all : 0), 0, costs);
   plan.sum = carver.take_ring(sgm ? largest(ring_rows(plan, kMatch, kCheck, 0), all) : 0, 0, costs);
@@ -217,12 +219,12 @@ void make_plan(const bsm_config& config, const Kernels& kernels, uint64_t contex
   for (int32_t i = 0; i < kMaxAcrossPaths; ++i) {
     plan.path[i] = carver.take_ring(i >= plan.across_paths ? 0 : plan.batch == 1 ? 1 : plan.batch + 1, 0, costs);
   }
-  const uint64_t vote_side = refined ? static_cast<uint32_t>(vote + 1) : 0;
-  plan.vote_steps = carver.take(vote_side * vote_side * sizeof(uint16_t));
-  const uint64_t smooth_side = smooth != 0 ? static_cast<uint32_t>(smooth + 1) : 0;
+  const uint32_t vote_side = refined ? static_cast<uint32_t>(vote + 1) : 0;
+  plan.vote_steps = carver.take(bytes_of(vote_side * vote_side));
+  const uint32_t smooth_side = smooth != 0 ? static_cast<uint32_t>(smooth + 1) : 0;
   plan.smooth_steps = carver.take(smooth_side * smooth_side);
   plan.job = plan_job(config, kernels, plan, width);
-  plan.jobs = carver.take(plan.job.bytes * static_cast<uint32_t>(config.max_jobs));
+  plan.jobs = carver.take(uint64_t{plan.job.bytes} * static_cast<uint32_t>(config.max_jobs));
   plan.bytes = carver.used();
 }
 

@@ -1,8 +1,9 @@
 // The memory plan: every buffer of a context, as offsets into the caller's arena. The same plan answers how many bytes a
-// configuration takes and carves them.
+// configuration takes and carves them. Where the bytes exceed what size_t counts, the offsets mean nothing.
 #ifndef BSM_CORE_PLAN_H
 #define BSM_CORE_PLAN_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 #include "bsm/bsm.h"
@@ -10,7 +11,7 @@
 
 namespace bsm {
 
-constexpr uint64_t kArenaAlignment = 64;
+constexpr uint32_t kArenaAlignment = 64;
 
 enum View : int32_t { kLeft = 0, kRight = 1, kViews = 2 };
 
@@ -18,20 +19,20 @@ constexpr int32_t kMaxAcrossPaths = 3;  // from the row before: straight, from t
 
 // A ring of rows: row y lives at offset + (y % rows) * stride.
 struct Ring {
-  uint64_t offset;  // of x = 0 in slot 0, in bytes
+  size_t offset;    // of x = 0 in slot 0, in bytes
   int32_t rows;     // 0: not needed
   uint32_t stride;  // bytes between slots
 };
 
 // Scratch of one job, as offsets from the job's own base.
 struct JobPlan {
-  uint64_t descriptor[kViews];
-  uint64_t mask[kViews];
-  uint64_t edge;    // sgm: colour edges of one row
-  uint64_t row;     // one 16-bit value per pixel
-  uint64_t window;  // pointers to the rows of a window: of the pattern, or levels and then CIELAB of the refinement
-  uint64_t kernel;  // scratch of the kernel that runs
-  uint64_t bytes;
+  size_t descriptor[kViews];
+  size_t mask[kViews];
+  size_t edge;    // sgm: colour edges of one row
+  size_t row;     // one 16-bit value per pixel
+  size_t window;  // pointers to the rows of a window: of the pattern, or levels and then CIELAB of the refinement
+  size_t kernel;  // scratch of the kernel that runs
+  size_t bytes;
 };
 
 // The steps of a row's way, in order. The paths from the row before and the passes of the weighted median are steps of their
@@ -94,10 +95,10 @@ struct Plan {
   Ring fraction_weight[kViews];
   Ring fraction_once[kViews];  // after the first pass
   Ring margin;                 // sgm with confidence: one byte a pixel
-  uint64_t pairs;              // of the pattern
-  uint64_t vote_steps;
-  uint64_t smooth_steps;
-  uint64_t jobs;  // max_jobs times JobPlan::bytes
+  size_t pairs;                // of the pattern
+  size_t vote_steps;
+  size_t smooth_steps;
+  size_t jobs;  // max_jobs times JobPlan::bytes
   JobPlan job;
   uint64_t bytes;  // of the whole arena when it begins at a multiple of kArenaAlignment
 };
