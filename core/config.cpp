@@ -53,7 +53,7 @@ bsm_status validate_config(const bsm_config* config) {
     return BSM_ERROR_METHOD;
   }
   const bool sgm = config->method == BSM_METHOD_SGM;
-  const int32_t most_bits = sgm ? kMostSgmBits : kMostLocalBits;
+  const int32_t most_bits = sgm ? BSM_MAX_SGM_BITS : BSM_MAX_BITS;
   if (!within(config->bits, BSM_MIN_BITS, most_bits) || config->bits % BSM_MIN_BITS != 0) return BSM_ERROR_BITS;
   // The stages before the aggregation are the local method's.
   if (!within(config->stage, kHasLocal ? BSM_STAGE_COST : BSM_STAGE_AGGREGATED, BSM_STAGE_REFINED)) return BSM_ERROR_STAGE;

@@ -33,7 +33,7 @@ extern "C" const char* bsm_status_string(bsm_status status) {
     case BSM_ERROR_NUM_DISPARITIES:
       return "the number of disparities is below 1, or the largest disparity above 2046";
     case BSM_ERROR_BITS:
-      return "the number of bits is not a multiple of 64 within 64..4096 (sgm: 64..1024) or of what was built";
+      return "the number of bits is not a multiple of 64 within 64..4096 (sgm: 64..1024)";
     case BSM_ERROR_METHOD:
       return "the method is unknown or was not built";
     case BSM_ERROR_STAGE:

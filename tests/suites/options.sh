@@ -35,24 +35,21 @@ run_options() {
     expect "scene" "$whole" demo "$out" --width 160 --height 120 --disparities 32 || return
   expect "views in gray" gray_pair "$out"
 
-  if smaller sgm -DBSM_LOCAL=OFF -DBSM_COLOR=OFF -DBSM_MAX_BITS=256; then
+  if smaller sgm -DBSM_LOCAL=OFF -DBSM_COLOR=OFF; then
     same sgm --preset fast
     same sgm --preset balanced --right-costs left
     same sgm --preset fast --paths 8 --stage aggregated
     same sgm --preset fast --isa scalar
     refused sgm "the method is unknown or was not built" --preset paper --bits 256
-    refused sgm "the number of bits" --bits 320
     refused sgm "the stage is unknown" --stage masked
     refused sgm "the pixel format is unknown or was not built" --preset fast
   fi
-  if smaller local -DBSM_SGM=OFF -DBSM_MAX_BITS=512; then
+  if smaller local -DBSM_SGM=OFF; then
     same local --preset paper --bits 512
     same local --preset balanced --method local --bits 256
     same local --preset paper --bits 64 --stage cost --isa scalar
     refused local "the method is unknown or was not built" --preset fast
-    refused local "the number of bits" --preset paper --bits 1024
   fi
   expect "no method, refused" refuses "both off" cmake -S "$root" -B "$out/no-method" -DBSM_LOCAL=OFF -DBSM_SGM=OFF
-  expect "odd length, refused" refuses "multiple of 64" cmake -S "$root" -B "$out/odd-length" -DBSM_MAX_BITS=100
   expect "tests of a part, refused" refuses "the whole library" cmake -S "$root" -B "$out/part-tests" -DBSM_SGM=OFF
 }

@@ -65,7 +65,7 @@ typedef enum bsm_status {
   BSM_ERROR_HEIGHT = -6,           /* height is not within 1..BSM_MAX_SIZE */
   BSM_ERROR_MIN_DISPARITY = -7,    /* min_disparity is not within BSM_MIN_DISPARITY..BSM_MAX_DISPARITY */
   BSM_ERROR_NUM_DISPARITIES = -8,  /* num_disparities is below 1, or the largest disparity above BSM_MAX_DISPARITY */
-  BSM_ERROR_BITS = -9,             /* bits is not a multiple of 64 within 64..4096 (sgm: 64..1024) or of what was built */
+  BSM_ERROR_BITS = -9,             /* bits is not a multiple of 64 within 64..4096 (sgm: 64..1024) */
   BSM_ERROR_METHOD = -10,          /* method is not a bsm_method that was built */
   BSM_ERROR_STAGE = -11,           /* stage is not a bsm_stage, or the method or this build has no such stage */
   BSM_ERROR_FORMAT = -12,          /* format is not a bsm_format that was built */
