@@ -133,10 +133,7 @@ double bound_cycles(const Core& core, const MatchHammingArgs& args) {
     return count * (cycles(core, words / 4 * Effort{1 + 2 * 8, 4, 0, 0} + args.bits / 1024.0 * Effort{9, 0, 0, 0}));
   }
   if (is(core, "avx512")) {
-    const Effort counted = {2 * 2 + (args.bits < 512 ? 0.0 : 2), args.bits < 512 ? 2.0 : 4.0, 0, 2};
-    const Effort added = args.bits < 512 ? Effort{2 * 10, 0, 0, 2 * 3} : Effort{2 * 17, 0, 0, 2 * 5};
-    const Effort keys = {7, 2, 1, 0};
-    return cycles(core, count / 8 * (8 * words / 8 * counted + added + keys));
+    return cycles(core, count / 8 * (words * Effort{2 * 3, 2, 0, 2} + Effort{6 - 2, 1, 1, 0}));
   }
   return cycles(core, count * (words / 2 * Effort{1 + 2 * 3, 2, 0, 0} + 0.25 * winners));
 }

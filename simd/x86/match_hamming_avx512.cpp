@@ -1,253 +1,216 @@
-// match_hamming, AVX-512 F, BW, VPOPCNTDQ: eight or sixteen candidates of a left pixel at once.
-// The XOR of a candidate never leaves the register: one three-operand operation XORs and masks for each view. A winner is
-// the least of cost and level in one 32-bit word, so that ties need no order. Bound, per 512 bits of a candidate and both
-// views: 2 logic, 2 population counts, 2 additions; 2 loads.
+// match_hamming, AVX-512 F, BW, VPOPCNTDQ: eight right pixels against left pixels one after the other, both views.
+// The right pixels' words lie apart by number, a lane for each pixel: in registers, or in the first-level cache for long
+// descriptors, which then meet four left pixels at once. A left pixel's word goes to all lanes as it is loaded, so that
+// counts add up without a move between lanes and no load crosses a cache line. The XOR of a candidate never leaves the
+// register: one three-operand operation XORs and masks for each view. A winner is the least of cost and level in one 32-bit
+// word, so that ties need no order. Bound for eight candidates: by word of a descriptor 2 logic, 2 population counts, 2
+// additions, the first 2 of which are none; then 3 to make keys of both views, 2 minima, 1 for the next levels. Two ports do
+// them, one of which alone counts: 14 cycles for 256 bits and 194 for 4096, 1.8 and 24.3 a candidate. Carry-save additions
+// before the counts would gain nothing, as each takes two operations and saves two. A block meets D + 7 left pixels for D
+// levels: 7 in D + 7 lanes are idle.
 #include "platform/compiler.h"
 
 #if BSM_ARCH_X86_64
 #include <immintrin.h>
 
 #include "simd/kernels.h"
+#include "simd/x86/hamming_avx512.h"
 
 namespace bsm {
 namespace {
 
-constexpr uint32_t kNone = 0xffffffffu;  // no candidate
+constexpr int32_t kPixels = 8;  // of a block: lanes
 
-inline __m512i xor_and(__m512i a, __m512i b, __m512i mask) {
-  return _mm512_ternarylogic_epi64(a, b, mask, 0x28);  // (a ^ b) & mask
-}
-
+// Descriptors and masks of neighbours in a row.
 struct View {
   const uint8_t* descriptors;
   const uint8_t* masks;
+
+  View from(ptrdiff_t bytes) const { return View{descriptors + bytes, masks == nullptr ? nullptr : masks + bytes}; }
 };
 
-// Sums of the words of eight candidates in both views, by candidate.
+// Sums of the lanes of a block against one left pixel, under the masks of each view.
 struct Costs {
-  __m256i left, right;  // 32-bit
+  __m512i left, right;
 };
 
-// Sixteen vectors of eight counts, none above 512, to sixteen sums: 0..7 into left, 8..15 into right.
-inline Costs add_up(const __m512i (&left)[8], const __m512i (&right)[8]) {
-  __m512i four[4];  // four sums of 16 bits in each word, of candidates i, i + 2, i + 4, i + 6
-  BSM_UNROLL
-  for (int32_t i = 0; i < 2; ++i) {
-    const __m512i(&from)[8] = i == 0 ? left : right;
-    BSM_UNROLL
-    for (int32_t k = 0; k < 2; ++k) {
-      const __m512i low = _mm512_add_epi64(from[k], _mm512_slli_epi64(from[k + 2], 16));
-      const __m512i high = _mm512_add_epi64(from[k + 4], _mm512_slli_epi64(from[k + 6], 16));
-      four[2 * i + k] = _mm512_add_epi64(low, _mm512_slli_epi64(high, 32));
-    }
+template <bool kMasked>
+BSM_INLINE void add(Costs& costs, __m512i own, const uint8_t* own_mask, __m512i other, __m512i other_mask) {
+  if (kMasked) {
+    costs.left = _mm512_add_epi64(costs.left, count(own, other, every_word(own_mask)));
+    costs.right = _mm512_add_epi64(costs.right, count(own, other, other_mask));
+  } else {
+    costs.left = costs.right = _mm512_add_epi64(costs.left, _mm512_popcnt_epi64(_mm512_xor_si512(own, other)));
   }
-  // Words: a candidate's sums move together, first within 128 bits, then across.
-  const __m512i a = _mm512_add_epi64(_mm512_unpacklo_epi64(four[0], four[1]), _mm512_unpackhi_epi64(four[0], four[1]));
-  const __m512i b = _mm512_add_epi64(_mm512_unpacklo_epi64(four[2], four[3]), _mm512_unpackhi_epi64(four[2], four[3]));
-  const __m512i halves = _mm512_add_epi64(_mm512_shuffle_i64x2(a, b, 0x44), _mm512_shuffle_i64x2(a, b, 0xee));
-  const __m512i sums = _mm512_add_epi64(halves, _mm512_shuffle_i64x2(halves, halves, 0xb1));
-  // 16-bit lanes of a view: candidates 0 2 4 6 1 3 5 7.
-  const __m128i order = _mm_setr_epi8(0, 1, 8, 9, 2, 3, 10, 11, 4, 5, 12, 13, 6, 7, 14, 15);
-  const __m128i l = _mm_shuffle_epi8(_mm512_castsi512_si128(sums), order);
-  const __m128i r = _mm_shuffle_epi8(_mm512_extracti64x2_epi64(sums, 2), order);
-  return Costs{_mm256_cvtepu16_epi32(l), _mm256_cvtepu16_epi32(r)};
 }
 
-// Costs of the left pixel against eight right pixels from `right` on, of `words` 64-bit words each.
-template <bool kMasked>
-inline Costs compare_eight(View left, View right, int32_t words) {
-  __m512i left_counts[8];
-  __m512i right_counts[8];
-  BSM_UNROLL
-  for (int32_t i = 0; i < 8; ++i) left_counts[i] = right_counts[i] = _mm512_setzero_si512();
-  const ptrdiff_t bytes = ptrdiff_t{words} * 8;
-  for (int32_t word = 0; word < words; word += 8) {
-    const __mmask8 valid = static_cast<__mmask8>(words - word < 8 ? (1u << (words - word)) - 1 : 0xffu);
-    const ptrdiff_t at = ptrdiff_t{word} * 8;
-    const __m512i own = _mm512_maskz_loadu_epi64(valid, left.descriptors + at);
-    const __m512i own_mask = kMasked ? _mm512_maskz_loadu_epi64(valid, left.masks + at) : own;
+// A block of descriptors of kWords words, a power of two.
+template <bool kMasked, int32_t kWords>
+struct ShortBlock {
+  static constexpr int32_t kAtOnce = 1;
+  __m512i words[kWords], masks[kWords];
+
+  ShortBlock(View right, ptrdiff_t, __m512i*) {
+    split_eight<kWords>(right.descriptors, words);
+    if (kMasked) split_eight<kWords>(right.masks, masks);
+  }
+
+  BSM_INLINE void compare(View left, ptrdiff_t, Costs (&costs)[1]) const {
     BSM_UNROLL
-    for (int32_t i = 0; i < 8; ++i) {
-      const __m512i other = _mm512_maskz_loadu_epi64(valid, right.descriptors + i * bytes + at);
-      if (kMasked) {
-        const __m512i other_mask = _mm512_maskz_loadu_epi64(valid, right.masks + i * bytes + at);
-        left_counts[i] = _mm512_add_epi64(left_counts[i], _mm512_popcnt_epi64(xor_and(own, other, own_mask)));
-        right_counts[i] = _mm512_add_epi64(right_counts[i], _mm512_popcnt_epi64(xor_and(own, other, other_mask)));
-      } else {
-        left_counts[i] = _mm512_add_epi64(left_counts[i], _mm512_popcnt_epi64(_mm512_xor_si512(own, other)));
+    for (int32_t i = 0; i < kWords; ++i) {
+      add<kMasked>(costs[0], every_word(left.descriptors + 8 * i), left.masks + 8 * i, words[i], masks[i]);
+    }
+  }
+};
+
+// A block of descriptors of any length: words and masks by number in `memory`.
+template <bool kMasked>
+struct LongBlock {
+  static constexpr int32_t kAtOnce = 4;
+  const __m512i* words;
+  const __m512i* masks;
+
+  LongBlock(View right, ptrdiff_t bytes, __m512i* memory) : words(memory), masks(memory + whole_words(bytes)) {
+    split_long(right.descriptors, bytes, memory);
+    if (kMasked) split_long(right.masks, bytes, memory + whole_words(bytes));
+  }
+
+  template <int32_t kCount>
+  BSM_INLINE void compare(View left, ptrdiff_t bytes, Costs (&costs)[kCount]) const {
+    for (ptrdiff_t at = 0; at < bytes; at += 8) {
+      const __m512i other = _mm512_load_si512(words + at / 8);
+      const __m512i other_mask = _mm512_load_si512(masks + at / 8);
+      BSM_UNROLL
+      for (int32_t k = 0; k < kCount; ++k) {
+        add<kMasked>(costs[k], every_word(left.descriptors + k * bytes + at), left.masks + k * bytes + at, other,
+                     other_mask);
       }
     }
   }
-  if (!kMasked) {
-    BSM_UNROLL
-    for (int32_t i = 0; i < 8; ++i) right_counts[i] = left_counts[i];
-  }
-  return add_up(left_counts, right_counts);
-}
+};
 
-// The same for descriptors of 1, 2 or 4 words: a register holds several right pixels.
-template <bool kMasked, int32_t kWords>
-inline Costs compare_eight_short(View left, View right) {
-  __m512i own, own_mask;
-  if (kWords == 1) {
-    own = _mm512_broadcastq_epi64(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(left.descriptors)));
-    own_mask = kMasked ? _mm512_broadcastq_epi64(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(left.masks))) : own;
-  } else if (kWords == 2) {
-    own = _mm512_broadcast_i64x2(_mm_loadu_si128(reinterpret_cast<const __m128i*>(left.descriptors)));
-    own_mask = kMasked ? _mm512_broadcast_i64x2(_mm_loadu_si128(reinterpret_cast<const __m128i*>(left.masks))) : own;
-  } else {
-    own = _mm512_broadcast_i64x4(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(left.descriptors)));
-    own_mask = kMasked ? _mm512_broadcast_i64x4(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(left.masks))) : own;
+// How a block's pixels meet left pixels.
+struct Meeting {
+  int32_t left;    // the pixel that meets the first one at level 0
+  int32_t pixels;  // of the block, within the row
+  int32_t num_disparities;
+
+  // Levels of the eight pixels for left pixel x, in both halves of a word.
+  __m512i levels(int32_t x) const {
+    const __m512i behind = _mm512_setr_epi32(0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7);
+    return _mm512_slli_epi32(_mm512_sub_epi32(_mm512_set1_epi32(x - left), behind), kLevelShift);
   }
-  __m512i counts[2][kWords];  // by view
+  // Pixels that are candidates of left pixel x, which has one.
+  __mmask8 candidates(int32_t x) const {
+    const int32_t last = x - left < pixels - 1 ? x - left : pixels - 1;
+    const int32_t before = x - left - num_disparities + 1;
+    return static_cast<__mmask8>((2u << last) - (before > 0 ? 1u << before : 1u));
+  }
+};
+
+// Compares left pixels x .. x + kCount - 1 and returns the block's least keys, `best` so far. A vector of keys holds the
+// left view's in the lower halves of its words, the right view's in the upper. kWhole: all of the block's pixels are
+// candidates.
+template <int32_t kCount, bool kWhole, bool kMasked, class Block>
+BSM_INLINE __m512i compare_some(const Block& block, View left, ptrdiff_t bytes, const Meeting& meeting, int32_t x,
+                                __m512i& levels, __m512i* left_best, __m512i best) {
+  const __m512i none = _mm512_set1_epi32(-1);
+  Costs costs[kCount];
   BSM_UNROLL
-  for (int32_t i = 0; i < kWords; ++i) {
-    const __m512i other = _mm512_loadu_si512(right.descriptors + 64 * i);
-    if (kMasked) {
-      counts[0][i] = _mm512_popcnt_epi64(xor_and(own, other, own_mask));
-      counts[1][i] = _mm512_popcnt_epi64(xor_and(own, other, _mm512_loadu_si512(right.masks + 64 * i)));
-    } else {
-      counts[0][i] = counts[1][i] = _mm512_popcnt_epi64(_mm512_xor_si512(own, other));
-    }
-  }
-  __m256i sums[2];
+  for (int32_t k = 0; k < kCount; ++k) costs[k].left = costs[k].right = _mm512_setzero_si512();
+  block.compare(left.from(x * bytes), bytes, costs);
   BSM_UNROLL
-  for (int32_t view = 0; view < 2; ++view) {
-    const __m512i(&c)[kWords] = counts[view];
-    if (kWords == 1) {
-      sums[view] = _mm512_cvtepi64_epi32(c[0]);
-    } else if (kWords == 2) {
-      const __m512i sum =
-          _mm512_add_epi64(_mm512_unpacklo_epi64(c[0], c[kWords - 1]), _mm512_unpackhi_epi64(c[0], c[kWords - 1]));
-      const __m256i order = _mm256_setr_epi32(0, 2, 4, 6, 1, 3, 5, 7);
-      sums[view] = _mm256_permutevar8x32_epi32(_mm512_cvtepi64_epi32(sum), order);
-    } else {
-      // Candidates 2 i and 2 i + 1 are the halves of register i.
-      const __m512i a = _mm512_add_epi64(c[0], _mm512_slli_epi64(c[1 % kWords], 32));
-      const __m512i b = _mm512_add_epi64(c[2 % kWords], _mm512_slli_epi64(c[3 % kWords], 32));
-      const __m512i sum = _mm512_add_epi64(_mm512_unpacklo_epi64(a, b), _mm512_unpackhi_epi64(a, b));
-      // 32-bit lanes, two for each 64 bits: candidates 0 2 | 4 6 | 0 2 | 4 6 || 1 3 | 5 7 | ...
-      const __m512i both = _mm512_add_epi32(sum, _mm512_shuffle_i64x2(sum, sum, 0xb1));
-      const __m512i order = _mm512_setr_epi32(0, 8, 1, 9, 2, 10, 3, 11, 0, 0, 0, 0, 0, 0, 0, 0);
-      sums[view] = _mm512_castsi512_si256(_mm512_permutexvar_epi32(order, both));
-    }
+  for (int32_t k = 0; k < kCount; ++k) {
+    __m512i keys =
+        _mm512_ternarylogic_epi64(_mm512_slli_epi64(costs[k].left, 16), _mm512_slli_epi64(costs[k].right, 48), levels,
+                                  0xfe);  // or
+    if (!kWhole) keys = _mm512_mask_mov_epi64(none, meeting.candidates(x + k), keys);
+    _mm512_store_si512(left_best + x + k, _mm512_min_epu32(_mm512_load_si512(left_best + x + k), keys));
+    best = _mm512_min_epu32(best, keys);
+    levels = _mm512_add_epi32(levels, _mm512_set1_epi32(1 << kLevelShift));
   }
-  return Costs{sums[0], sums[1]};
+  return best;
 }
 
-template <bool kMasked, int32_t kWords>
-inline Costs compare(View left, View right, int32_t words) {
-  if constexpr (kWords == 0) {
-    return compare_eight<kMasked>(left, right, words);
-  } else {
-    return compare_eight_short<kMasked, kWords>(left, right);
+// The same for left pixels begin .. end - 1.
+template <bool kWhole, bool kMasked, class Block>
+inline __m512i compare(Block block, View left, ptrdiff_t bytes, Meeting meeting, int32_t begin, int32_t end,
+                       __m512i* left_best, __m512i best) {
+  __m512i levels = meeting.levels(begin);
+  int32_t x = begin;
+  for (; x + Block::kAtOnce <= end; x += Block::kAtOnce) {
+    best = compare_some<Block::kAtOnce, kWhole, kMasked>(block, left, bytes, meeting, x, levels, left_best, best);
   }
+  if constexpr (Block::kAtOnce > 1) {
+    for (; x < end; ++x) best = compare_some<1, kWhole, kMasked>(block, left, bytes, meeting, x, levels, left_best, best);
+  }
+  return best;
 }
 
-inline uint16_t level_of(uint32_t key) {
-  return key == kNone ? kNoLevel : static_cast<uint16_t>(key << kLevelShift);
-}
-
-inline uint32_t least(__m256i keys) {
-  __m128i least = _mm_min_epu32(_mm256_castsi256_si128(keys), _mm256_extracti128_si256(keys, 1));
+inline uint32_t least_lower_half(__m512i keys) {
+  const __m256i half = _mm256_min_epu32(_mm512_castsi512_si256(keys), _mm512_extracti64x4_epi64(keys, 1));
+  __m128i least = _mm_min_epu32(_mm256_castsi256_si128(half), _mm256_extracti128_si256(half, 1));
   least = _mm_min_epu32(least, _mm_shuffle_epi32(least, 0x4e));
-  least = _mm_min_epu32(least, _mm_shuffle_epi32(least, 0xb1));
   return static_cast<uint32_t>(_mm_cvtsi128_si32(least));
 }
 
-// A row's costs and winners; kWords: 64-bit words of a descriptor, 0 for any number.
-template <bool kMasked, int32_t kWords>
-struct Row {
-  const MatchHammingArgs& args;
-  uint32_t* right_best;  // a key for each right pixel, with 8 more on both sides
-
-  // Compares left pixel x at levels level .. level + 7 and updates the right pixels' winners. Returns the left keys.
-  __m256i eight_levels(int32_t x, int32_t level) const {
-    const __m256i none = _mm256_set1_epi32(-1);
-    const ptrdiff_t bytes = args.bits / 8;
-    const int32_t levels = args.num_disparities - level < 8 ? args.num_disparities - level : 8;
-    // Right pixels first .. first + 7 meet x at levels level + 7 .. level; those begin .. end - 1 are candidates.
-    const int32_t first = x - args.min_disparity - level - 7;
-    const int32_t begin = 8 - levels > -first ? 8 - levels : -first;
-    const int32_t end = args.width - first < 8 ? args.width - first : 8;
-    if (begin >= end) return none;
-    const __mmask8 valid = static_cast<__mmask8>((1u << end) - (1u << begin));
-    // Near the ends of the row the eight pixels compared lie further inside, and the results move back.
-    const int32_t last = (args.width + 7) / 8 * 8 - 8;
-    const int32_t start = first < 0 ? 0 : first > last ? last : first;
-    const View left{args.left + x * bytes, kMasked ? args.left_mask + x * bytes : nullptr};
-    const View right{args.right + start * bytes, kMasked ? args.right_mask + start * bytes : nullptr};
-    Costs costs = compare<kMasked, kWords>(left, right, args.bits / 64);
-    if (start != first) {
-      const __m256i lanes = _mm256_add_epi32(_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32(first - start));
-      costs.left = _mm256_permutevar8x32_epi32(costs.left, lanes);
-      costs.right = _mm256_permutevar8x32_epi32(costs.right, lanes);
-    }
-    const __m256i numbers = _mm256_add_epi32(_mm256_set1_epi32(level), _mm256_setr_epi32(7, 6, 5, 4, 3, 2, 1, 0));
-    const __m256i left_keys = _mm256_or_si256(_mm256_slli_epi32(costs.left, 16), numbers);
-    const __m256i right_keys = _mm256_or_si256(_mm256_slli_epi32(costs.right, 16), numbers);
-    __m256i* best = reinterpret_cast<__m256i*>(right_best + first);
-    const __m256i old = _mm256_loadu_si256(best);
-    _mm256_storeu_si256(best, _mm256_mask_min_epu32(old, valid, old, right_keys));
-    return _mm256_mask_mov_epi32(none, valid, left_keys);
+template <bool kMasked, class Block>
+void match_row(const MatchHammingArgs& row) {
+  const MatchHammingArgs args = row;  // a copy, which the levels written cannot change
+  const ptrdiff_t bytes = args.bits / 8;
+  __m512i* left_best = static_cast<__m512i*>(args.scratch);
+  for (int32_t x = 0; x < args.width; ++x) _mm512_store_si512(left_best + x, _mm512_set1_epi32(-1));
+  const View left{args.left, args.left_mask};
+  const View right{args.right, args.right_mask};
+  const auto within = [&](int32_t x) { return x < 0 ? 0 : x < args.width ? x : args.width; };
+  for (int32_t first = 0; first < args.width; first += kPixels) {
+    const int32_t pixels = args.width - first < kPixels ? args.width - first : kPixels;
+    const Meeting meeting{first + args.min_disparity, pixels, args.num_disparities};
+    // Left pixels begin .. end - 1 have candidates in the block, those from all_begin to all_end - 1 have eight.
+    const int32_t begin = within(meeting.left);
+    const int32_t end = within(meeting.left + args.num_disparities + pixels - 1);
+    int32_t all_begin = within(meeting.left + kPixels - 1);
+    int32_t all_end = within(meeting.left + args.num_disparities);
+    if (pixels < kPixels || all_begin >= all_end) all_begin = all_end = end;
+    const Block block(right.from(first * bytes), bytes, left_best + args.width);
+    __m512i best = _mm512_set1_epi32(-1);
+    best = compare<false, kMasked>(block, left, bytes, meeting, begin, all_begin, left_best, best);
+    best = compare<true, kMasked>(block, left, bytes, meeting, all_begin, all_end, left_best, best);
+    best = compare<false, kMasked>(block, left, bytes, meeting, all_end, end, left_best, best);
+    _mm_mask_storeu_epi16(args.right_level + first, static_cast<__mmask8>((1u << pixels) - 1),
+                          _mm512_cvtepi64_epi16(_mm512_srli_epi64(best, 32)));
   }
-};
-
-template <bool kMasked, int32_t kWords>
-void match_row(const MatchHammingArgs& args) {
-  uint32_t* left_best = static_cast<uint32_t*>(args.scratch);
-  uint32_t* right_best = left_best + args.width + 8;
-  for (int32_t x = -8; x < args.width + 8; ++x) right_best[x] = kNone;
-  const Row<kMasked, kWords> row{args, right_best};
-  if (kWords != 0) {
-    for (int32_t x = 0; x < args.width; ++x) {
-      __m256i best = _mm256_set1_epi32(-1);
-      for (int32_t level = 0; level < args.num_disparities; level += 8) {
-        best = _mm256_min_epu32(best, row.eight_levels(x, level));
-      }
-      left_best[x] = least(best);
-    }
-  } else {
-    // Eight levels at a time, so that their right pixels stay in the first-level cache while x runs.
-    for (int32_t x = 0; x < args.width; ++x) left_best[x] = kNone;
-    for (int32_t level = 0; level < args.num_disparities; level += 8) {
-      for (int32_t x = 0; x < args.width; ++x) {
-        const uint32_t key = least(row.eight_levels(x, level));
-        if (key < left_best[x]) left_best[x] = key;
-      }
-    }
-  }
-  for (int32_t x = 0; x < args.width; ++x) {
-    args.left_level[x] = level_of(left_best[x]);
-    args.right_level[x] = level_of(right_best[x]);
-  }
+  // A key's lower half is its level, and kNoLevel without candidates.
+  for (int32_t x = 0; x < args.width; ++x) args.left_level[x] = static_cast<uint16_t>(least_lower_half(left_best[x]));
 }
 
 template <bool kMasked>
-void match_row_of(const MatchHammingArgs& args) {
+void match(const MatchHammingArgs& args) {
   switch (args.bits / 64) {
     case 1:
-      return match_row<kMasked, 1>(args);
+      return match_row<kMasked, ShortBlock<kMasked, 1>>(args);
     case 2:
-      return match_row<kMasked, 2>(args);
+      return match_row<kMasked, ShortBlock<kMasked, 2>>(args);
     case 4:
-      return match_row<kMasked, 4>(args);
+      return match_row<kMasked, ShortBlock<kMasked, 4>>(args);
+    case 8:
+      return match_row<kMasked, ShortBlock<kMasked, 8>>(args);
     default:
-      return match_row<kMasked, 0>(args);
+      return match_row<kMasked, LongBlock<kMasked>>(args);
   }
 }
 
 }  // namespace
 
 uint64_t match_hamming_avx512_scratch(const KernelShape& shape) {
-  return sizeof(uint32_t) * (2 * static_cast<uint64_t>(shape.width) + 16);
+  return sizeof(__m512i) * (static_cast<uint64_t>(shape.width) + 2 * static_cast<uint64_t>(whole_words(shape.bits / 8)));
 }
 
 void match_hamming_avx512(const MatchHammingArgs& args) {
   if (args.left_mask != nullptr) {
-    match_row_of<true>(args);
+    match<true>(args);
   } else {
-    match_row_of<false>(args);
+    match<false>(args);
   }
 }
 

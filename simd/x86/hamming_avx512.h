@@ -1,0 +1,73 @@
+// Counts under a mask in AVX-512 F and VPOPCNTDQ, with words of eight descriptors told apart by number: a register holds the
+// same word of each, so that counts add up without a move between lanes.
+#ifndef BSM_SIMD_X86_HAMMING_AVX512_H
+#define BSM_SIMD_X86_HAMMING_AVX512_H
+
+#include <immintrin.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "platform/compiler.h"
+
+namespace bsm {
+namespace {
+
+// Set bits of (other ^ own) & mask, by 64-bit word. The first operand is overwritten: the one that is not needed again.
+inline __m512i count(__m512i other, __m512i own, __m512i mask) {
+  return _mm512_popcnt_epi64(_mm512_ternarylogic_epi64(other, own, mask, 0x28));
+}
+
+inline __m512i every_word(const uint8_t* word) {
+  return _mm512_broadcastq_epi64(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(word)));
+}
+
+// kWords registers with eight descriptors in a row to one register for each number of a word; every `step`-th of `to`.
+template <int32_t kWords>
+inline void split_words(const __m512i (&from)[kWords], __m512i* to, int32_t step) {
+  if constexpr (kWords == 1) {
+    *to = from[0];
+  } else {
+    const __m512i evens = _mm512_setr_epi64(0, 2, 4, 6, 8, 10, 12, 14);
+    const __m512i odds = _mm512_setr_epi64(1, 3, 5, 7, 9, 11, 13, 15);
+    __m512i even[kWords / 2], odd[kWords / 2];
+    BSM_UNROLL
+    for (int32_t i = 0; i < kWords / 2; ++i) {
+      even[i] = _mm512_permutex2var_epi64(from[2 * i], evens, from[2 * i + 1]);
+      odd[i] = _mm512_permutex2var_epi64(from[2 * i], odds, from[2 * i + 1]);
+    }
+    split_words<kWords / 2>(even, to, 2 * step);
+    split_words<kWords / 2>(odd, to + step, 2 * step);
+  }
+}
+
+// Eight descriptors of kWords words, a power of two: register i gets their words of number i.
+template <int32_t kWords>
+inline void split_eight(const uint8_t* descriptors, __m512i (&words)[kWords]) {
+  __m512i from[kWords];
+  BSM_UNROLL
+  for (int32_t i = 0; i < kWords; ++i) from[i] = _mm512_loadu_si512(descriptors + 64 * i);
+  split_words<kWords>(from, words, 1);
+}
+
+// Words of a descriptor, rounded up to what split_long writes.
+inline ptrdiff_t whole_words(ptrdiff_t bytes) {
+  return (bytes + 63) / 64 * 8;
+}
+
+// The same for eight descriptors of any length, eight words at a time.
+inline void split_long(const uint8_t* descriptors, ptrdiff_t bytes, __m512i* words) {
+  for (ptrdiff_t at = 0; at < bytes; at += 64, words += 8) {
+    const __mmask8 valid = static_cast<__mmask8>(bytes - at < 64 ? (1u << ((bytes - at) / 8)) - 1 : 0xffu);
+    __m512i from[8], to[8];
+    BSM_UNROLL
+    for (int32_t i = 0; i < 8; ++i) from[i] = _mm512_maskz_loadu_epi64(valid, descriptors + i * bytes + at);
+    split_words<8>(from, to, 1);
+    BSM_UNROLL
+    for (int32_t i = 0; i < 8; ++i) _mm512_store_si512(words + i, to[i]);
+  }
+}
+
+}  // namespace
+}  // namespace bsm
+
+#endif  // BSM_SIMD_X86_HAMMING_AVX512_H
