@@ -51,13 +51,16 @@
 #define BSM_ARCH_SVE 0
 #endif
 
-// Before a loop of a constant few rounds: unrolled whole, so that arrays indexed in it live in registers.
+// Before a loop of a constant few rounds: unrolled whole, so that arrays indexed in it live in registers; or left a loop.
 #if defined(__clang__)
 #define BSM_UNROLL _Pragma("unroll")
+#define BSM_KEEP_LOOP _Pragma("nounroll")
 #elif defined(__GNUC__)
 #define BSM_UNROLL _Pragma("GCC unroll 16")
+#define BSM_KEEP_LOOP _Pragma("GCC unroll 1")
 #else
 #define BSM_UNROLL
+#define BSM_KEEP_LOOP
 #endif
 
 #if defined(__GNUC__) || defined(__clang__)

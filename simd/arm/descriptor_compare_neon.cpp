@@ -31,13 +31,14 @@ template <int32_t kVectors>
 inline void compare_eight_pairs(const uint16_t* const (&p)[8], const uint16_t* const (&q)[8], int32_t at, uint8_t* out) {
   uint8x16_t bytes[kVectors];
   BSM_UNROLL
-  for (int32_t i = 7; i >= 0; --i) {
+  for (int32_t v = 0; v < kVectors; ++v) bytes[v] = compare(p[7] + at + v * kLanes, q[7] + at + v * kLanes);
+  BSM_UNROLL_A64
+  for (int32_t i = 6; i >= 0; --i) {
     const uint16_t* above = p[i] + at;
     const uint16_t* below = q[i] + at;
     BSM_UNROLL
     for (int32_t v = 0; v < kVectors; ++v) {
-      const uint8x16_t bits = compare(above + v * kLanes, below + v * kLanes);
-      bytes[v] = i == 7 ? bits : vsliq_n_u8(bits, bytes[v], 1);
+      bytes[v] = vsliq_n_u8(compare(above + v * kLanes, below + v * kLanes), bytes[v], 1);
     }
   }
   BSM_UNROLL

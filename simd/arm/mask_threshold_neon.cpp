@@ -139,7 +139,7 @@ inline uint8x16_t find_threshold(const Scratch& scratch, int32_t bits, int32_t* 
   return threshold;
 }
 
-void store_masks(const Scratch& scratch, int32_t bits, uint8x16_t threshold, int32_t pixels, uint8_t* out) {
+BSM_NOINLINE void store_masks(const Scratch& scratch, int32_t bits, uint8x16_t threshold, int32_t pixels, uint8_t* out) {
   const ptrdiff_t bytes = bits / 8;
   for (ptrdiff_t byte = 0; byte < bytes; byte += 8) {
     uint8x16_t octets[8];
@@ -307,7 +307,7 @@ inline void transpose_bits(uint8x16_t (&v)[8]) {
 }
 
 // The masks of up to 128 pixels from the bits of the points.
-void store_tile(Scratch& scratch, int32_t bits, int32_t pixels, uint8_t* out) {
+BSM_NOINLINE void store_tile(Scratch& scratch, int32_t bits, int32_t pixels, uint8_t* out) {
   const ptrdiff_t bytes = bits / 8;
   const uint8_t* within = scratch.many.within[0];
   for (int32_t first = 0; first < bits; first += 64) {

@@ -8,6 +8,14 @@
 
 #include "platform/compiler.h"
 
+// Before a loop of a constant few rounds: unrolled for the 32 registers of AArch64. With the 16 of ARMv7 it stays a loop,
+// since clang would load for all rounds first and keep that on the stack.
+#if defined(__aarch64__)
+#define BSM_UNROLL_A64 BSM_UNROLL
+#else
+#define BSM_UNROLL_A64 BSM_KEEP_LOOP
+#endif
+
 namespace bsm {
 namespace {
 
