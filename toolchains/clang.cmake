@@ -14,3 +14,8 @@ foreach(arch ${BSM_ARCHS})
 endforeach()
 set(CMAKE_C_FLAGS_INIT "${bsm_flags}")
 set(CMAKE_CXX_FLAGS_INIT "${bsm_flags}")
+# CMake names no flags of the build types where clang stands in for MSVC and the system is none that it knows.
+if(BSM_TARGET MATCHES "-msvc$")
+  set(CMAKE_C_FLAGS_RELEASE_INIT "-O3 -DNDEBUG")
+  set(CMAKE_CXX_FLAGS_RELEASE_INIT "-O3 -DNDEBUG")
+endif()

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC2154  # root, jobs and the counts are run.sh's
 # Systems whose SDK is not here: the library compiles for them with clang and the C headers that come with it, which is all that
-# it includes. Nothing is linked or run.
+# it includes, and makes no frame above 1 KB, which is a warning and so an error. Nothing is linked or run.
 
 # The objects are for the machine that the target names.
 is_for() {
@@ -23,7 +23,7 @@ run_nosdk() {
     wasm32:wasm32:wasm32-unknown-unknown; do
     IFS=: read -r name arch target <<< "$entry"
     expect "$name compiles" build "$root" "$root/build/nosdk/$name" bsm "-DCMAKE_TOOLCHAIN_FILE=$root/toolchains/clang.cmake" \
-      "-DBSM_TARGET=$target" -DCMAKE_BUILD_TYPE=Release -DBSM_BUILD_TESTS=OFF -DBSM_BUILD_PROGRAM=OFF \
+      "-DBSM_TARGET=$target" -DCMAKE_BUILD_TYPE=Release -DBSM_WERROR=ON -DBSM_BUILD_TESTS=OFF -DBSM_BUILD_PROGRAM=OFF \
       -DBSM_BUILD_BENCH=OFF && expect "$name is for $arch" is_for "$root/build/nosdk/$name" "$arch"
   done
 }
