@@ -13,9 +13,9 @@ test. Exit code 0: nothing failed.
 
   --asan   build with AddressSanitizer and UndefinedBehaviorSanitizer in build/asan and run that instead
   --all    the native build; the kernels of older x86 processors and of ARM, other Linux machines and Cortex-M boards under
-           emulation; objects for systems whose SDK is not here; embedding in other projects; a build with clang, the
-           sanitizers, and the fuzzers for a short fixed count. Installs compilers and emulators on Debian and Ubuntu when it
-           may; what this machine lacks is listed as skipped
+           emulation; objects for systems whose SDK is not here; WebAssembly in node; embedding in other projects; a build
+           with clang, the sanitizers, and the fuzzers for a short fixed count. Installs compilers and emulators on Debian and
+           Ubuntu when it may; what this machine lacks is listed as skipped
   --help   this text
 
 Environment: BSM_DATA names a folder of real pairs with ground truth (v2/tsukuba, v2/venus, v2/teddy, v2/cones);
@@ -29,7 +29,7 @@ for option in "$@"; do
     --asan) suites=asan ;;
     --all)
       # arm64 first: it brings the compiler that a proof of the native suite uses.
-      suites="arm64 native tiers arm32 armv5 riscv64 s390x nosdk embedding packages options cortexm clang asan tsan fuzz"
+      suites="arm64 native tiers arm32 armv5 riscv64 s390x nosdk wasm embedding packages options cortexm clang asan tsan fuzz"
       ;;
     -h | --help)
       usage
@@ -43,7 +43,7 @@ for option in "$@"; do
   esac
 done
 
-# shellcheck source=../platform/host/require_tools.sh
+# shellcheck source-path=SCRIPTDIR source=../platform/host/require_tools.sh
 . "$root/platform/host/require_tools.sh"
 exec < /dev/null
 require_tools cc c++ cmake make || exit 1

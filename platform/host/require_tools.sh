@@ -31,6 +31,8 @@ package_of() {
     ninja) echo ninja-build ;;
     *-linux-gnu*-g++) echo "g++-${1%-g++}" ;;
     clang++-16) echo clang-16 ;;
+    wasm-ld-16) echo lld-16 ;;
+    node) echo nodejs ;;
     llvm-mca-16 | llvm-ar-16) echo llvm-16 ;;
     qemu-aarch64 | qemu-arm | qemu-riscv64 | qemu-s390x | qemu-x86_64) echo qemu-user ;;
     arm-none-eabi-*) echo gcc-arm-none-eabi ;;
