@@ -90,12 +90,12 @@ double bound_cycles(const Core& core, const ColorLabArgs& args) {
   return cycles(core, args.width * Effort{56 / lanes(core, 4), 9, 4 / lanes(core, 4), 0});
 }
 
-// Per pair: two vectors of luma and a compare (minimum and equality before AVX-512, whose compares are done by one ALU); two
-// vectors pack to a word of signs.
+// Per pair: two vectors of luma (one with AVX-512, where the other stays in a register for all pairs of its point) and a
+// compare (minimum and equality before AVX-512, whose compares are done by one ALU); two vectors pack to a word of signs.
 double bound_cycles(const Core& core, const DescriptorCompareArgs& args) {
   if (is(core, "scalar"))
     return cycles(core, 1.0 * args.width * args.pattern.bits * (Effort{2, 2, 0, 0} + transposed(core)));
-  const Effort compares = is(core, "avx512") ? Effort{2 + 1, 4, 1, 2 + 1}
+  const Effort compares = is(core, "avx512") ? Effort{2 + 1, 2, 1, 2 + 1}
                           : is(core, "neon") ? Effort{2 + 1, 4, 1, 0}
                                              : Effort{4 + 2, 4, 1, 0};
   return cycles(core, args.width / lanes(core, 1) * args.pattern.bits * (compares + transposed(core)));

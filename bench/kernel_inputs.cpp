@@ -5,6 +5,7 @@
 
 #include "core/pattern.h"
 #include "core/weights.h"
+#include "simd/pattern_order.h"
 
 namespace bsm::bench {
 namespace {
@@ -26,7 +27,12 @@ bsm_config balanced(const Inputs& inputs) {
 }
 
 Pattern take_pattern(Inputs& inputs) {
-  return local_pattern(inputs.bits, inputs.take<PixelPair>(static_cast<size_t>(inputs.bits)));
+  Pattern pattern = local_pattern(inputs.bits, inputs.take<PixelPair>(static_cast<size_t>(inputs.bits)));
+  if constexpr (kOrdersPatterns) {
+    const size_t bytes = static_cast<size_t>(pattern_order_bytes(inputs.bits));
+    pattern.order = make_pattern_order(pattern, inputs.take<uint8_t>(bytes));
+  }
+  return pattern;
 }
 
 // A texture: slow changes with a step now and then, other rows alike.

@@ -8,6 +8,7 @@
 #include "core/weights.h"
 #include "platform/compiler.h"
 #include "platform/cpu.h"
+#include "simd/pattern_order.h"
 
 namespace bsm {
 namespace {
@@ -67,7 +68,11 @@ BSM_NOINLINE uint64_t arena_bytes(const bsm_config& config, const Kernels& kerne
 Pattern pattern_of(const bsm_context& context) {
   PixelPair* pairs = reinterpret_cast<PixelPair*>(context.arena + context.plan.pairs);
   const bsm_config& config = context.config;
-  return has_sgm_pattern(config) ? sgm_pattern(config.bits, pairs) : local_pattern(config.bits, pairs);
+  Pattern pattern = has_sgm_pattern(config) ? sgm_pattern(config.bits, pairs) : local_pattern(config.bits, pairs);
+  if constexpr (kOrdersPatterns) {
+    if (context.kernels.ordered) pattern.order = make_pattern_order(pattern, context.arena + context.plan.order);
+  }
+  return pattern;
 }
 
 // Exponents of the refinement's distances, which depend on the configuration alone.

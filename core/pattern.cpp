@@ -48,7 +48,7 @@ Pattern make_pattern(const uint16_t* distribution, int32_t radius, int32_t bits,
       pair->qy = generator.offset();
     } while (pair->px == pair->qx && pair->py == pair->qy);
   }
-  return Pattern{pairs, bits, radius};
+  return Pattern{pairs, bits, radius, nullptr};
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "core/speckle.h"
 #include "platform/compiler.h"
 #include "simd/build.h"
+#include "simd/pattern_order.h"
 
 namespace bsm {
 namespace {
@@ -185,6 +186,7 @@ void make_plan(const bsm_config& config, const Kernels& kernels, uint64_t contex
   Carver carver;
   carver.take(context_bytes);
   plan.pairs = carver.take(static_cast<uint32_t>(config.bits) * sizeof(PixelPair));
+  if constexpr (kOrdersPatterns) plan.order = carver.take(kernels.ordered ? pattern_order_bytes(config.bits) : 0);
   for (int32_t view = 0; view < kViews; ++view) {
     const bool wanted = view == kLeft || config.right_map != 0;
     const int32_t lab_rows = largest(refined && wanted ? refine_lab_rows : window_rows, view == kLeft ? edge_lab_rows : 0);

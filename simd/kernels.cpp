@@ -32,17 +32,23 @@ constexpr bool is_built(StageIndex stage) {
   }
 }
 
+// Kernels that read Pattern::order: those of x86.
+constexpr bool reads_order(StageIndex stage, uint32_t required) {
+  return (stage == descriptor_compare_index || stage == mask_threshold_index) && (required & kIsaSse42) == kIsaSse42;
+}
+
 }  // namespace
 
 Kernels select_kernels(uint32_t features) {
   Kernels kernels{};
   int32_t blocks[kStageCount] = {};
-#define BSM_KERNEL(stage, operation, isa, required, stage_block)                          \
-  if (is_built(stage##_##operation##_index) && ((required) & ~features) == 0) {           \
-    kernels.stage##_##operation = stage##_##operation##_##isa;                            \
-    kernels.name[stage##_##operation##_index] = #stage "_" #operation "_" #isa;           \
-    kernels.scratch[stage##_##operation##_index] = stage##_##operation##_##isa##_scratch; \
-    blocks[stage##_##operation##_index] = (stage_block);                                  \
+#define BSM_KERNEL(stage, operation, isa, required, stage_block)                               \
+  if (is_built(stage##_##operation##_index) && ((required) & ~features) == 0) {                \
+    kernels.stage##_##operation = stage##_##operation##_##isa;                                 \
+    kernels.name[stage##_##operation##_index] = #stage "_" #operation "_" #isa;                \
+    kernels.scratch[stage##_##operation##_index] = stage##_##operation##_##isa##_scratch;      \
+    blocks[stage##_##operation##_index] = (stage_block);                                       \
+    kernels.ordered = kernels.ordered || reads_order(stage##_##operation##_index, (required)); \
   }
 #include "simd/kernels.def"
 #undef BSM_KERNEL

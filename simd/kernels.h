@@ -22,11 +22,14 @@ struct PixelPair {
   int8_t px, py, qx, qy;
 };
 
+struct PatternOrder;
+
 // The first `bits` pairs of a table; every offset is within -radius..radius.
 struct Pattern {
   const PixelPair* pairs;
   int32_t bits;
   int32_t radius;
+  const PatternOrder* order;  // for kernels of machines with kOrdersPatterns
 };
 
 constexpr int32_t kMaxPatternRadius = 12;
@@ -270,6 +273,7 @@ struct Kernels {
 #undef BSM_STAGE
   const char* name[BSM_KERNEL_COUNT];  // "stage_operation_isa", in the order of simd/stages.def
   kernel_scratch_fn* scratch[BSM_KERNEL_COUNT];
+  bool ordered;          // a kernel reads Pattern::order
   int32_t block[kAxes];  // pixels and levels that the widest kernel works on at once: rows are padded to multiples of them
 };
 

@@ -1,25 +1,12 @@
-// The window offsets that a pattern uses, numbered row by row, and its pairs by those numbers: for the mask kernels, which
-// look at every offset once however many pairs it is in.
+// Numbers the points of a pattern, and finds thresholds beyond a byte: for the mask kernels.
 #ifndef BSM_SIMD_PATTERN_POINTS_H
 #define BSM_SIMD_PATTERN_POINTS_H
 
 #include "platform/compiler.h"
-#include "simd/kernels.h"
+#include "simd/pattern_order.h"
 
 namespace bsm {
 namespace {
-
-constexpr int32_t kMaxPoints = kMaxWindowSide * kMaxWindowSide;
-
-struct PatternPoints {
-  struct Point {
-    int8_t dx, dy;
-  };
-  int32_t count;
-  uint32_t pairs[BSM_MAX_BITS];  // 8 times the number of point p, 8 times that of q above it: one load for both
-  uint16_t number[kMaxPoints];   // by window offset
-  Point points[kMaxPoints];
-};
 
 inline int32_t window_index(int32_t dx, int32_t dy, int32_t radius) {
   return (dy + radius) * (2 * radius + 1) + dx + radius;

@@ -3,6 +3,7 @@
 #include "core/weights.h"
 #include "kernel_cases.h"
 #include "pixel_formats.h"
+#include "simd/pattern_order.h"
 
 namespace bsm::test {
 namespace {
@@ -40,7 +41,11 @@ LabRows take_lab(const Trial& trial, int count, int before, int values) {
 }
 
 Pattern any_pattern(const Trial& trial) {
-  return local_pattern(trial.bits, trial.yard.take_array<PixelPair>(static_cast<size_t>(trial.bits)));
+  Pattern pattern = local_pattern(trial.bits, trial.yard.take_array<PixelPair>(static_cast<size_t>(trial.bits)));
+  if constexpr (kOrdersPatterns) {
+    pattern.order = make_pattern_order(pattern, trial.yard.take(static_cast<size_t>(pattern_order_bytes(trial.bits)), 8));
+  }
+  return pattern;
 }
 
 KernelShape shape_of(const Trial& trial, int radius, int planes, int num_disparities) {

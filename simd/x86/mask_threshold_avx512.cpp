@@ -24,7 +24,7 @@ struct alignas(64) Scratch {
   uint64_t point_words[kMaxPoints];
   uint16_t exact_sad[kMaxPoints];
   uint16_t histogram[kMaxSad + 1];
-  PatternPoints points;
+  const PatternPoints* points;
 };
 
 inline __m512i distance(__m512i a, __m512i b) {
@@ -36,8 +36,8 @@ void window_sad(const MaskThresholdArgs& args, int32_t x, Scratch& scratch) {
   const uint8_t* const* rows = args.rows + args.pattern.radius;
   __m512i center[kPlanes];
   for (int32_t i = 0; i < kPlanes; ++i) center[i] = _mm512_loadu_si512(rows[0] + x + i * args.plane_stride);
-  for (int32_t i = 0; i < scratch.points.count; ++i) {
-    const uint8_t* at = rows[scratch.points.points[i].dy] + x + scratch.points.points[i].dx;
+  for (int32_t i = 0; i < scratch.points->count; ++i) {
+    const uint8_t* at = rows[scratch.points->points[i].dy] + x + scratch.points->points[i].dx;
     __m512i sad = distance(center[0], _mm512_loadu_si512(at));
     for (int32_t plane = 1; plane < kPlanes; ++plane) {
       sad = _mm512_adds_epu8(sad, distance(center[plane], _mm512_loadu_si512(at + plane * args.plane_stride)));
@@ -50,8 +50,10 @@ void window_sad(const MaskThresholdArgs& args, int32_t x, Scratch& scratch) {
 inline __m512i sum3(__m512i a, __m512i b, __m512i c) {
   return _mm512_ternarylogic_epi64(a, b, c, 0x96);
 }
-inline __m512i carry3(__m512i a, __m512i b, __m512i c) {
-  return _mm512_ternarylogic_epi64(a, b, c, 0xe8);
+// The carry of old + a + b by the sum: a where a = b, else the old bit, which is then the opposite of the sum. So the sum
+// may take the register of the old bit, and nothing is copied.
+inline __m512i carry3(__m512i a, __m512i b, __m512i sum) {
+  return _mm512_ternarylogic_epi64(a, b, sum, 0xd4);
 }
 
 struct Counter {
@@ -61,15 +63,16 @@ struct Counter {
 // Adds the bits a and b to a level; returns the carry.
 template <int32_t kLevel>
 BSM_INLINE __m512i add(Counter& counter, __m512i a, __m512i b) {
-  const __m512i old = counter.level[kLevel];
-  counter.level[kLevel] = sum3(old, a, b);
-  return carry3(old, a, b);
+  counter.level[kLevel] = sum3(counter.level[kLevel], a, b);
+  return carry3(a, b, counter.level[kLevel]);
 }
 
-BSM_INLINE __m512i pair_within(const Scratch& scratch, uint32_t pair) {
+BSM_INLINE __m512i pair_within(const Scratch& scratch, const uint32_t& pair) {
   const uint8_t* within = scratch.within[0];
-  const __m512i p = _mm512_load_si512(within + 8 * ptrdiff_t{pair & 0xffff});
-  return _mm512_and_si512(p, _mm512_load_si512(within + 8 * ptrdiff_t{pair >> 16}));
+  uint16_t points[2];
+  BSM_MEMCPY(points, &pair, sizeof points);
+  const __m512i p = _mm512_load_si512(within + 8 * ptrdiff_t{points[0]});
+  return _mm512_and_si512(p, _mm512_load_si512(within + 8 * ptrdiff_t{points[1]}));
 }
 
 template <int32_t kLevel>
@@ -94,7 +97,7 @@ BSM_NOINLINE __m512i enough(Scratch& scratch, int32_t bits) {
   while (groups >> levels != 0) ++levels;
   for (int32_t i = 0; i < levels; ++i) scratch.high[i] = _mm512_setzero_si512();
   for (int32_t group = 0; group < groups; ++group) {
-    __m512i carry = add_pairs<5>(counter, scratch, scratch.points.pairs + 64 * group);
+    __m512i carry = add_pairs<5>(counter, scratch, scratch.points->pairs + 64 * group);
     for (int32_t i = 0; i < levels; ++i) {
       const __m512i old = scratch.high[i];
       scratch.high[i] = _mm512_xor_si512(old, carry);
@@ -154,7 +157,7 @@ inline Bracket first_bracket(Scratch& scratch, int32_t bits) {
   const __m512i table = _mm512_load_si512(kFirst.within);
   const __m512i least = _mm512_set1_epi8(kFirstLeast);
   const __m512i last = _mm512_set1_epi8(63);
-  for (int32_t i = 0; i < scratch.points.count; ++i) {
+  for (int32_t i = 0; i < scratch.points->count; ++i) {
     const __m512i above = _mm512_min_epu8(_mm512_subs_epu8(_mm512_load_si512(scratch.sad[i]), least), last);
     _mm512_store_si512(scratch.within[i], _mm512_permutexvar_epi8(above, table));
   }
@@ -169,7 +172,7 @@ inline void narrow(Scratch& scratch, int32_t bits, __mmask64 wide, Bracket& brac
   const __m512i table = _mm512_load_si512(kNext.within);
   const __m512i last = _mm512_set1_epi8(63);
   const __m512i eighth = _mm512_set1_epi8(31);
-  for (int32_t i = 0; i < scratch.points.count; ++i) {
+  for (int32_t i = 0; i < scratch.points->count; ++i) {
     __m512i above = _mm512_subs_epu8(_mm512_load_si512(scratch.sad[i]), bracket.low);
     if (wide != 0) {
       const __m512i by_eight = _mm512_and_si512(_mm512_srli_epi16(above, 3), eighth);
@@ -199,14 +202,14 @@ inline __m512i find_threshold(Scratch& scratch, int32_t bits, __mmask64 wanted) 
 // Words of the points: bit x says that the SAD of pixel x is within its threshold.
 BSM_NOINLINE void threshold_points(const MaskThresholdArgs& args, int32_t x, __mmask64 wanted, Scratch& scratch) {
   const __m512i threshold = find_threshold(scratch, args.pattern.bits, wanted);
-  for (int32_t i = 0; i < scratch.points.count; ++i) {
+  for (int32_t i = 0; i < scratch.points->count; ++i) {
     scratch.point_words[i] = _mm512_cmple_epu8_mask(_mm512_load_si512(scratch.sad[i]), threshold);
   }
   uint64_t beyond = _mm512_mask_cmpeq_epi8_mask(wanted, threshold, _mm512_set1_epi8(-1));
   for (; beyond != 0; beyond &= beyond - 1) {
     const int32_t pixel = __builtin_ctzll(beyond);
-    const uint32_t exact = exact_threshold(args, x + pixel, scratch.points, scratch.exact_sad, scratch.histogram);
-    for (int32_t i = 0; i < scratch.points.count; ++i) {
+    const uint32_t exact = exact_threshold(args, x + pixel, *scratch.points, scratch.exact_sad, scratch.histogram);
+    for (int32_t i = 0; i < scratch.points->count; ++i) {
       const uint64_t bit = uint64_t{1} << pixel;
       scratch.point_words[i] = scratch.exact_sad[i] <= exact ? scratch.point_words[i] | bit : scratch.point_words[i] & ~bit;
     }
@@ -223,7 +226,7 @@ void mask_threshold_avx512(const MaskThresholdArgs& args) {
   Scratch& scratch = *static_cast<Scratch*>(args.scratch);
   const int32_t bits = args.pattern.bits;
   const ptrdiff_t bytes = bits / 8;
-  number_points(args.pattern, scratch.points);
+  scratch.points = &args.pattern.order->points;
   for (int32_t x = 0; x < args.width; x += 64) {
     const int32_t pixels = args.width - x < 64 ? args.width - x : 64;
     const __mmask64 wanted = ~uint64_t{0} >> (64 - pixels);
@@ -237,7 +240,7 @@ void mask_threshold_avx512(const MaskThresholdArgs& args) {
       const int32_t count = bits - first < kTileWords ? bits - first : kTileWords;
       const uint8_t* words = reinterpret_cast<const uint8_t*>(scratch.point_words);
       for (int32_t i = 0; i < count; ++i) {
-        const uint32_t pair = scratch.points.pairs[first + i];
+        const uint32_t pair = scratch.points->pairs[first + i];
         uint64_t p, q;
         BSM_MEMCPY(&p, words + (pair & 0xffff), sizeof p);
         BSM_MEMCPY(&q, words + (pair >> 16), sizeof q);

@@ -23,7 +23,7 @@ struct alignas(64) MaskScratch {
   uint64_t point_words[kMaxPoints];  // 8 bytes apart, as the numbers of points are
   uint16_t exact_sad[kMaxPoints];
   uint16_t histogram[kMaxSad + 1];
-  PatternPoints points;
+  const PatternPoints* points;
 };
 
 inline Bytes distance(Bytes a, Bytes b) {
@@ -35,8 +35,8 @@ inline void window_sad(const MaskThresholdArgs& args, int32_t x, MaskScratch& sc
   const uint8_t* const* rows = args.rows + args.pattern.radius;
   Bytes center[kPlanes];
   for (int32_t i = 0; i < kPlanes; ++i) center[i] = load(rows[0] + x + i * args.plane_stride);
-  for (int32_t i = 0; i < scratch.points.count; ++i) {
-    const uint8_t* at = rows[scratch.points.points[i].dy] + x + scratch.points.points[i].dx;
+  for (int32_t i = 0; i < scratch.points->count; ++i) {
+    const uint8_t* at = rows[scratch.points->points[i].dy] + x + scratch.points->points[i].dx;
     Bytes sad = distance(center[0], load(at));
     for (int32_t plane = 1; plane < kPlanes; ++plane) {
       sad = add8_saturated(sad, distance(center[plane], load(at + plane * args.plane_stride)));
@@ -86,7 +86,7 @@ BSM_NOINLINE Bytes enough(MaskScratch& scratch, int32_t bits) {
   while (groups >> levels != 0) ++levels;
   for (int32_t i = 0; i < levels; ++i) store(scratch.high[i], zero());
   for (int32_t group = 0; group < groups; ++group) {
-    Bytes carry = add_pairs<5>(counter, scratch, scratch.points.pairs + 64 * group);
+    Bytes carry = add_pairs<5>(counter, scratch, scratch.points->pairs + 64 * group);
     for (int32_t i = 0; i < levels; ++i) {
       const Bytes old = load(scratch.high[i]);
       store(scratch.high[i], differ(old, carry));
@@ -142,7 +142,7 @@ struct Bracket {
 
 inline Bracket first_bracket(MaskScratch& scratch, int32_t bits) {
   const Bytes table = table16(kFirst.within);
-  for (int32_t i = 0; i < scratch.points.count; ++i) {
+  for (int32_t i = 0; i < scratch.points->count; ++i) {
     const Bytes sad = min8(load(scratch.sad[i]), set8(63));
     store(scratch.within[i], look_up(table, both(right16<2>(sad), set8(15))));
   }
@@ -154,7 +154,7 @@ inline Bracket first_bracket(MaskScratch& scratch, int32_t bits) {
 template <int32_t kStep>
 inline void narrow(MaskScratch& scratch, int32_t bits, Bracket& bracket) {
   const Bytes table = table16(kStep == 32 ? kEverySecond.within : kEvery.within);
-  for (int32_t i = 0; i < scratch.points.count; ++i) {
+  for (int32_t i = 0; i < scratch.points->count; ++i) {
     Bytes above = sub8_saturated(load(scratch.sad[i]), bracket.low);
     if (kStep == 1) above = min8(above, set8(15));
     if (kStep == 4) above = both(right16<2>(min8(above, set8(63))), set8(15));
@@ -195,16 +195,16 @@ inline void threshold_points(const MaskThresholdArgs& args, int32_t x, int32_t p
   for (int32_t i = 0; i < kLanes; ++i) lanes[i] = i < pixels ? 0xff : 0;
   const Bytes wanted = load(lanes);
   const Bytes threshold = find_threshold(scratch, args.pattern.bits, wanted);
-  for (int32_t i = 0; i < scratch.points.count; ++i) {
+  for (int32_t i = 0; i < scratch.points->count; ++i) {
     const Bytes sad = load(scratch.sad[i]);
     scratch.point_words[i] = signs(equal8(min8(sad, threshold), sad));
   }
   const Word beyond = signs(both(equal8(threshold, set8(-1)), wanted));
   for (int32_t pixel = 0; pixel < pixels; ++pixel) {
     if ((beyond >> pixel & 1) == 0) continue;
-    const uint32_t exact = exact_threshold(args, x + pixel, scratch.points, scratch.exact_sad, scratch.histogram);
+    const uint32_t exact = exact_threshold(args, x + pixel, *scratch.points, scratch.exact_sad, scratch.histogram);
     const uint64_t bit = uint64_t{1} << pixel;
-    for (int32_t i = 0; i < scratch.points.count; ++i) {
+    for (int32_t i = 0; i < scratch.points->count; ++i) {
       const uint64_t word = scratch.point_words[i];
       scratch.point_words[i] = scratch.exact_sad[i] <= exact ? word | bit : word & ~bit;
     }
@@ -218,7 +218,7 @@ inline void threshold_masks(const MaskThresholdArgs& args) {
   MaskScratch& scratch = *static_cast<MaskScratch*>(args.scratch);
   const int32_t bits = args.pattern.bits;
   const ptrdiff_t bytes = bits / 8;
-  number_points(args.pattern, scratch.points);
+  scratch.points = &args.pattern.order->points;
   for (int32_t x = 0; x < args.width; x += kLanes) {
     const int32_t pixels = args.width - x < kLanes ? args.width - x : kLanes;
     if (args.planes == 3) {
@@ -231,7 +231,7 @@ inline void threshold_masks(const MaskThresholdArgs& args) {
       const int32_t count = bits - first < kWordsAtOnce ? bits - first : kWordsAtOnce;
       const uint8_t* words = reinterpret_cast<const uint8_t*>(scratch.point_words);
       for (int32_t i = 0; i < count; ++i) {
-        const uint32_t pair = scratch.points.pairs[first + i];
+        const uint32_t pair = scratch.points->pairs[first + i];
         Word p, q;
         BSM_MEMCPY(&p, words + (pair & 0xffff), sizeof p);
         BSM_MEMCPY(&q, words + (pair >> 16), sizeof q);

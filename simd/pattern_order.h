@@ -1,0 +1,50 @@
+// A pattern as the kernels run through it that look at every window offset once, however many pairs it is in.
+#ifndef BSM_SIMD_PATTERN_ORDER_H
+#define BSM_SIMD_PATTERN_ORDER_H
+
+#include <stdint.h>
+
+#include "platform/compiler.h"
+#include "simd/kernels.h"
+
+namespace bsm {
+
+constexpr int32_t kMaxPoints = kMaxWindowSide * kMaxWindowSide;
+
+// The window offsets that a pattern uses, numbered row by row, and its pairs by those numbers.
+struct PatternPoints {
+  struct Point {
+    int8_t dx, dy;
+  };
+  int32_t count;
+  uint32_t pairs[BSM_MAX_BITS];  // 8 times the number of point p, 8 times that of q above it: one load for both
+  uint16_t number[kMaxPoints];   // by window offset
+  Point points[kMaxPoints];
+};
+
+// The pairs once more, by the points that they share. Points are 8 times their numbers.
+struct PatternOrder {
+  // The pairs of a point p. Groups are in the order of their size: loops over them turn often, but seldom unforeseen.
+  struct Group {
+    uint16_t p, size;
+  };
+
+  PatternPoints points;
+  Group groups[kMaxPoints];
+  int32_t groups_count;
+  uint32_t* partners;  // of all groups, one after the other: point q, the pair's bit above it
+  // By number, while the order is made: pairs of a point, and the place of the next one.
+  uint16_t shares[kMaxPoints];
+  uint16_t next[kMaxPoints];
+};
+
+// Kernels of these machines read Pattern::order.
+constexpr bool kOrdersPatterns = BSM_ARCH_X86_64;
+
+// Bytes of a pattern's order, and the order made there, 8-byte aligned.
+uint64_t pattern_order_bytes(int32_t bits);
+const PatternOrder* make_pattern_order(const Pattern& pattern, void* memory);
+
+}  // namespace bsm
+
+#endif  // BSM_SIMD_PATTERN_ORDER_H
