@@ -71,35 +71,17 @@ BSM_NOINLINE void aggregate_view(const bsm_context& context, View view, int32_t 
   context.kernels.aggregate_along(args);
 }
 
-void pick_least(const bsm_context& context, const uint16_t* sum, bool subpixel, uint16_t* level, uint8_t* job) {
+// Winners of `count` pixels from their sums.
+void pick_least(const bsm_context& context, const uint16_t* sum, int32_t count, uint16_t* level, uint8_t* job) {
   WinnerSumsArgs args{};
   args.sum = sum;
-  args.width = context.config.width;
+  args.width = count;
   args.num_disparities = context.config.num_disparities;
   args.stride = context.plan.level_stride;
-  args.subpixel = subpixel ? 1 : 0;
+  args.subpixel = context.config.subpixel;
   args.level = level;
   args.scratch = job + context.plan.job.kernel;
   context.kernels.winner_sums(args);
-}
-
-// Right winners from the left view's sums: the least S(x + d, d), the lowest level wins a tie.
-void pick_right_from_left(const bsm_context& context, const uint16_t* sums, uint16_t* right, uint16_t* least) {
-  const bsm_config& config = context.config;
-  for (int32_t x = 0; x < config.width; ++x) {
-    right[x] = kNoLevel;
-    least[x] = kNoCost;
-  }
-  for (int32_t x = 0; x < config.width; ++x) {
-    const uint16_t* sum = sums + ptrdiff_t{x} * context.plan.level_stride;
-    for (int32_t level = 0; level < config.num_disparities; ++level) {
-      if (sum[level] == kNoCost) continue;
-      const int32_t matched = x - config.min_disparity - level;
-      if (sum[level] >= least[matched]) continue;
-      least[matched] = sum[level];
-      right[matched] = static_cast<uint16_t>(level << kLevelShift);
-    }
-  }
 }
 
 }  // namespace
@@ -112,8 +94,7 @@ void aggregate_along_row(const bsm_context& context, int32_t y, uint8_t* job) {
     // The right view needs its costs in this row alone; the left view's take their place.
     count_costs(context, kRight, cost, job);
     aggregate_view(context, kRight, y, cost, sum, job);
-    const bool subpixel = context.config.subpixel != 0;
-    pick_least(context, sum, subpixel, ring_row<uint16_t>(context, plan.winner[kRight], y), job);
+    pick_least(context, sum, context.config.width, ring_row<uint16_t>(context, plan.winner[kRight], y), job);
   }
   count_costs(context, kLeft, cost, job);
   aggregate_view(context, kLeft, y, cost, sum, job);
@@ -151,13 +132,30 @@ void aggregate_across_row(const bsm_context& context, int32_t path, int32_t step
   context.kernels.aggregate_across(args);
 }
 
-void pick_winners(const bsm_context& context, int32_t y, uint8_t* job) {
-  const Plan& plan = context.plan;
-  const uint16_t* sum = ring_row<const uint16_t>(context, plan.sum, y);
-  pick_least(context, sum, context.config.subpixel != 0, ring_row<uint16_t>(context, plan.winner[kLeft], y), job);
-  if (context.config.right_costs == BSM_RIGHT_COSTS_LEFT) {
-    pick_right_from_left(context, sum, ring_row<uint16_t>(context, plan.winner[kRight], y),
-                         job_buffer<uint16_t>(job, plan.job.row));
+void pick_left_winners(const bsm_context& context, int32_t y, int32_t begin, int32_t end, uint8_t* job) {
+  const uint16_t* sum =
+      ring_row<const uint16_t>(context, context.plan.sum, y) + ptrdiff_t{begin} * context.plan.level_stride;
+  pick_least(context, sum, end - begin, ring_row<uint16_t>(context, context.plan.winner[kLeft], y) + begin, job);
+}
+
+void pick_right_winners(const bsm_context& context, int32_t y, uint8_t* job) {
+  const bsm_config& config = context.config;
+  const uint16_t* sums = ring_row<const uint16_t>(context, context.plan.sum, y);
+  uint16_t* right = ring_row<uint16_t>(context, context.plan.winner[kRight], y);
+  uint16_t* least = job_buffer<uint16_t>(job, context.plan.job.row);
+  for (int32_t x = 0; x < config.width; ++x) {
+    right[x] = kNoLevel;
+    least[x] = kNoCost;
+  }
+  for (int32_t x = 0; x < config.width; ++x) {
+    const uint16_t* sum = sums + ptrdiff_t{x} * context.plan.level_stride;
+    for (int32_t level = 0; level < config.num_disparities; ++level) {
+      if (sum[level] == kNoCost) continue;
+      const int32_t matched = x - config.min_disparity - level;
+      if (sum[level] >= least[matched]) continue;
+      least[matched] = sum[level];
+      right[matched] = static_cast<uint16_t>(level << kLevelShift);
+    }
   }
 }
 

@@ -17,8 +17,12 @@ void aggregate_along_row(const bsm_context& context, int32_t y, uint8_t* job);
 void aggregate_across_row(const bsm_context& context, int32_t path, int32_t step, int32_t y, int32_t begin, int32_t end,
                           uint8_t* job);
 
-// Winners of row y from the sums: the left view's, and the right view's when it has no costs of its own.
-void pick_winners(const bsm_context& context, int32_t y, uint8_t* job);
+// Winners of pixels begin..end-1 of row y of the left view, from sums that no path is missing in.
+void pick_left_winners(const bsm_context& context, int32_t y, int32_t begin, int32_t end, uint8_t* job);
+
+// Winners of row y of a right view without costs of its own, from the left view's sums: the least S(x + d, d), the lowest
+// level wins a tie.
+void pick_right_winners(const bsm_context& context, int32_t y, uint8_t* job);
 
 // The column from which a path's predecessor comes: x - path_dx.
 int32_t path_dx(int32_t path);

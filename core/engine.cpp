@@ -47,15 +47,19 @@ int16_t* map_row(const bsm_map& map, int32_t y) {
 
 // One path from the row before over some rows: step 1 runs from rows.begin downwards, -1 from rows.end - 1 upwards. Each job
 // owns a block of columns that moves along with the path, so that it only ever reads predecessors of its own or of rows that
-// were complete before the jobs began.
+// were complete before the jobs began. Where no path follows, the winners are picked while the sums are near.
 void aggregate_across(const bsm_context& context, int32_t path, int32_t step, Rows rows, Share share) {
   const int32_t width = context.config.width;
   const int32_t dx = path_dx(path);
   const int32_t first = step > 0 ? rows.begin : rows.end - 1;
+  const bool last = path + 1 == context.plan.across_paths && (step < 0) == context.plan.whole_frame;
   for (int32_t i = 0; i < rows.end - rows.begin; ++i) {
     const int32_t begin = share.job == 0 ? 0 : clamp(share.job * width / share.jobs + i * dx, 0, width);
     const int32_t end = share.job == share.jobs - 1 ? width : clamp((share.job + 1) * width / share.jobs + i * dx, 0, width);
-    if (begin < end) aggregate_across_row(context, path, step, first + i * step, begin, end, share.scratch);
+    if (begin >= end) continue;
+    const int32_t y = first + i * step;
+    aggregate_across_row(context, path, step, y, begin, end, share.scratch);
+    if (last) pick_left_winners(context, y, begin, end, share.scratch);
   }
 }
 

@@ -121,7 +121,7 @@ void match_row(const bsm_context& context, int32_t y, uint8_t* job) {
 void check_row(const bsm_context& context, int32_t y, uint8_t* job) {
   const bsm_config& config = context.config;
   const Plan& plan = context.plan;
-  if (uses_sgm(context)) pick_winners(context, y, job);
+  if (uses_sgm(context) && config.right_costs == BSM_RIGHT_COSTS_LEFT) pick_right_winners(context, y, job);
   if (plan.margin.rows != 0) measure_margins(context, y);
   const Winners winners{
       {ring_row<const uint16_t>(context, plan.winner[kLeft], y), ring_row<const uint16_t>(context, plan.winner[kRight], y)},

@@ -22,7 +22,7 @@ void enter_row(const bsm_context& context, const RowSource& source, int32_t y);
 // Descriptors, masks and, without aggregation, the winners of row y; with it, the costs and the paths along the row.
 void match_row(const bsm_context& context, int32_t y, uint8_t* job);
 
-// Winners of row y of the views kept, checked when the stage asks for it, into the rings of levels.
+// Levels of row y of the views kept: their winners, checked when the stage asks for it, into the rings of levels.
 void check_row(const bsm_context& context, int32_t y, uint8_t* job);
 
 }  // namespace bsm

@@ -1,6 +1,7 @@
 // Computes the memory plan. Rows fit 32 bits; sums are 64-bit: the largest configuration stays below 2^48 bytes.
 #include "core/plan.h"
 
+#include "core/aggregate.h"
 #include "core/border.h"
 #include "core/confidence.h"
 #include "core/pattern.h"
@@ -214,12 +215,16 @@ void make_plan(const bsm_config& config, const Kernels& kernels, uint64_t contex
   }
   plan.margin = carver.take_ring(sgm && confidence ? ring_rows(plan, kCheck, kWrite, 0) : 0, 0, width);
   const uint32_t costs = bytes_of(static_cast<uint32_t>(config.width) * static_cast<uint32_t>(plan.level_stride));
-  const int32_t cost_rows = sgm ? ring_rows(plan, kMatch, kAcross + plan.across_paths - 1, 0) : 0;
+  const int32_t last_across = kAcross + plan.across_paths - 1;
+  const int32_t cost_rows = sgm ? ring_rows(plan, kMatch, last_across, 0) : 0;
   plan.cost = carver.take_ring(largest(cost_rows, sgm ? all : 0), 0, costs);
-  plan.sum = carver.take_ring(sgm ? largest(ring_rows(plan, kMatch, kCheck, 0), all) : 0, 0, costs);
-  // One row at a time, a path's costs are updated in place.
-  for (int32_t i = 0; i < kMaxAcrossPaths; ++i) {
-    plan.path[i] = carver.take_ring(i >= plan.across_paths ? 0 : plan.batch == 1 ? 1 : plan.batch + 1, 0, costs);
+  // The left view's winners are picked where the last path is added.
+  const int32_t sum_reader = confidence || config.right_costs == BSM_RIGHT_COSTS_LEFT ? kCheck : last_across;
+  plan.sum = carver.take_ring(sgm ? largest(ring_rows(plan, kMatch, sum_reader, 0), all) : 0, 0, costs);
+  // A path's costs are updated in place where no other job may still read those of the row before.
+  for (int32_t path = 0; path < kMaxAcrossPaths; ++path) {
+    const bool in_place = plan.batch == 1 || path_dx(path) == 0;
+    plan.path[path] = carver.take_ring(path >= plan.across_paths ? 0 : in_place ? 1 : plan.batch + 1, 0, costs);
   }
   const uint32_t vote_side = refined ? static_cast<uint32_t>(vote + 1) : 0;
   plan.vote_steps = carver.take(bytes_of(vote_side * vote_side));
