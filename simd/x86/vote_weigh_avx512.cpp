@@ -6,6 +6,7 @@
 
 #if BSM_ARCH_X86_64
 #include "simd/x86/vote_group_avx512.h"
+#include "simd/x86/vote_sparse_avx512.h"
 
 namespace bsm {
 namespace {
@@ -135,13 +136,28 @@ void vote_row(const Window& window) {
   }
 }
 
+template <int32_t kPlanes>
+void vote_sparse_row(const VoteWeighArgs& args) {
+  const int32_t taps = 2 * args.radius / args.step + 1;
+  const SparseWindow window{args, *static_cast<SparseScratch*>(args.scratch), taps, kColumns / taps,
+                            sparse_columns(args, taps)};
+  prepare(window);
+  copy_whole(args);
+  for (int32_t x = next_missing(args, 0); x < args.width; x = next_missing(args, x + 1)) {
+    args.out[x] = vote_sparse<kPlanes>(window, x);
+  }
+}
+
 }  // namespace
 
 uint64_t vote_weigh_avx512_scratch(const KernelShape& shape) {
-  return sizeof(Scratch) + votes_bytes(shape.num_disparities);
+  const uint64_t sparse = sparse_scratch_bytes(shape);
+  const uint64_t other = sizeof(Scratch) + votes_bytes(shape.num_disparities);
+  return sparse < other ? other : sparse;
 }
 
 void vote_weigh_avx512(const VoteWeighArgs& args) {
+  if (is_sparse(args)) return args.planes == 3 ? vote_sparse_row<3>(args) : vote_sparse_row<1>(args);
   Scratch& scratch = *static_cast<Scratch*>(args.scratch);
   Window window{args,
                 scratch,
