@@ -4,18 +4,22 @@ set -u -o pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
+# arm64 first: it brings the compiler that a proof of the native suite uses.
+all_suites="arm64 native tiers arm32 armv5 riscv64 s390x nosdk wasm embedding packages options cortexm clang asan tsan fuzz"
+
 usage() {
-  cat << 'END'
-usage: bash tests/run.sh [--asan] [--all]
+  cat << END
+usage: bash tests/run.sh [--all | --suite NAME...]
 
 Checks for a compiler, CMake and make (installs them on Debian and Ubuntu when it may), builds in build/tests and runs every
 test. Exit code 0: nothing failed.
 
-  --asan   build with AddressSanitizer and UndefinedBehaviorSanitizer in build/asan and run that instead
-  --all    the native build; the kernels of older x86 processors and of ARM, other Linux machines and Cortex-M boards under
-           emulation; objects for systems whose SDK is not here; WebAssembly in node; embedding in other projects; a build
-           with clang, the sanitizers, and the fuzzers for a short fixed count. Installs compilers and emulators on Debian and
-           Ubuntu when it may; what this machine lacks is listed as skipped
+  --suite  that suite instead, built in a folder of its own under build/; again for more. Suites:
+           $all_suites
+  --all    every suite: the native build; the kernels of older x86 processors and of ARM, other Linux machines and Cortex-M
+           boards under emulation; objects for systems whose SDK is not here; WebAssembly in node; embedding in other
+           projects; a build with clang, the sanitizers, and the fuzzers for a short fixed count. Installs compilers and
+           emulators on Debian and Ubuntu when it may; what this machine lacks is listed as skipped
   --help   this text
 
 Environment: BSM_DATA names a folder of real pairs with ground truth (v2/tsukuba, v2/venus, v2/teddy, v2/cones);
@@ -23,24 +27,29 @@ BSM_TEST_EFFORT scales the number of random cases, in percent; CC and CXX choose
 END
 }
 
-suites=native
-for option in "$@"; do
-  case $option in
-    --asan) suites=asan ;;
-    --all)
-      # arm64 first: it brings the compiler that a proof of the native suite uses.
-      suites="arm64 native tiers arm32 armv5 riscv64 s390x nosdk wasm embedding packages options cortexm clang asan tsan fuzz"
+suites=""
+while [ $# -gt 0 ]; do
+  case $1 in
+    --all) suites=$all_suites ;;
+    --suite)
+      [[ -n ${2:-} && " $all_suites " == *" $2 "* ]] || {
+        echo "run.sh: --suite ${2:-}: the suites are $all_suites" >&2
+        exit 2
+      }
+      suites+=" $2"
+      shift
       ;;
     -h | --help)
       usage
       exit 0
       ;;
     *)
-      echo "run.sh: $option: unknown option" >&2
+      echo "run.sh: $1: unknown option" >&2
       usage >&2
       exit 2
       ;;
   esac
+  shift
 done
 
 # shellcheck source-path=SCRIPTDIR source=../platform/host/require_tools.sh
@@ -214,7 +223,11 @@ for file in "$root"/tests/suites/*.sh; do
   . "$file"
 done
 
-for suite in $suites; do "run_$suite"; done
+for suite in ${suites:-native}; do
+  started=$SECONDS
+  "run_$suite"
+  echo "== $suite: $((SECONDS - started)) s"
+done
 
 if [ ${#table[@]} -gt 0 ]; then
   printf '\n== the synthetic scene on each target\n'
