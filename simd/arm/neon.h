@@ -103,6 +103,20 @@ inline uint32_t sum16(uint16x8_t a) {
 #endif
 }
 
+// Flags of all ones or zeros to bytes, those of a in the lower half.
+inline uint8x16_t narrow_flags(uint16x8_t a, uint16x8_t b) {
+#if defined(__aarch64__)
+  return vuzp1q_u8(vreinterpretq_u8_u16(a), vreinterpretq_u8_u16(b));
+#else
+  return vcombine_u8(vmovn_u16(a), vmovn_u16(b));
+#endif
+}
+
+// Four bits for each of sixteen flags, the first lowest.
+inline uint64_t flag_nibbles(uint8x16_t flags) {
+  return vget_lane_u64(vreinterpret_u64_u8(vshrn_n_u16(vreinterpretq_u16_u8(flags), 4)), 0);
+}
+
 // A table of 128 bytes; indices are below 128.
 #if defined(__aarch64__)
 struct Table128 {
