@@ -115,7 +115,7 @@ int32_t next_missing(const VoteWeighArgs& args, int32_t x) {
 }
 
 template <int32_t kPlanes>
-void vote_row(const Window& window) {
+BSM_NOINLINE void vote_row(const Window& window) {
   const VoteWeighArgs& args = window.args;
   copy_whole(args);
   const bool grouped = args.step == 1 && args.radius <= kMaxGroupRadius && args.num_disparities <= kMaxGroupLevels;
@@ -137,7 +137,7 @@ void vote_row(const Window& window) {
 }
 
 template <int32_t kPlanes>
-void vote_sparse_row(const VoteWeighArgs& args) {
+BSM_NOINLINE void vote_sparse_row(const VoteWeighArgs& args) {
   const int32_t taps = 2 * args.radius / args.step + 1;
   const SparseWindow window{args, *static_cast<SparseScratch*>(args.scratch), taps, kColumns / taps,
                             sparse_columns(args, taps)};
