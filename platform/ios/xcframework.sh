@@ -48,8 +48,7 @@ run() {
   [ -n "$dry" ] || "$@"
 }
 
-# slice NAME SYSTEM SDK OLDEST ARCH...: one library for all architectures of a platform. Each is built alone, since kernels have
-# compiler flags that the others refuse.
+# slice NAME SYSTEM SDK OLDEST ARCH...: one library for all architectures of a platform, joined from one for each.
 slice() {
   local name=$1 system=$2 sdk=$3 oldest=$4 arch library archives=()
   shift 4
