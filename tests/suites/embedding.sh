@@ -75,6 +75,7 @@ check_amalgamation() {
         isas+=("$isa")
       fi
     done
+    expect "amalgamation, made for this machine" [ ${#isas[@]} -gt 0 ]
     run_amalgamation "$out/amalgamation" "" "${isas[@]}"
   fi
 
