@@ -95,7 +95,9 @@ BSM_NOINLINE bsm_status plan_bytes(const bsm_config* config, uint32_t features, 
   const bsm_status status = validate_config(config);
   if (status != BSM_OK) return status;
   if (bytes == nullptr) return BSM_ERROR_NULL;
-  const uint64_t needed = arena_bytes(*config, select_kernels(features & config->isa_mask));
+  const Kernels kernels = select_kernels(features & config->isa_mask);
+  if (!is_complete(kernels)) return BSM_ERROR_ISA;
+  const uint64_t needed = arena_bytes(*config, kernels);
   if (needed > SIZE_MAX) return BSM_ERROR_MEMORY_SIZE;
   *bytes = static_cast<size_t>(needed);
   return BSM_OK;
@@ -220,5 +222,5 @@ extern "C" uint32_t bsm_cpu_features(void) {
 }
 
 extern "C" const char* bsm_cpu_feature_name(int32_t bit) {
-  return cpu_feature_name(bit);
+  return kHasText ? cpu_feature_name(bit) : nullptr;
 }

@@ -56,7 +56,9 @@ bsm_status validate_config(const bsm_config* config) {
   const int32_t most_bits = sgm ? BSM_MAX_SGM_BITS : BSM_MAX_BITS;
   if (!within(config->bits, BSM_MIN_BITS, most_bits) || config->bits % BSM_MIN_BITS != 0) return BSM_ERROR_BITS;
   // The stages before the aggregation are the local method's.
-  if (!within(config->stage, kHasLocal ? BSM_STAGE_COST : BSM_STAGE_AGGREGATED, BSM_STAGE_REFINED)) return BSM_ERROR_STAGE;
+  if (!within(config->stage, kHasLocal ? BSM_STAGE_COST : BSM_STAGE_AGGREGATED,
+              kHasRefinement ? BSM_STAGE_REFINED : BSM_STAGE_CHECKED))
+    return BSM_ERROR_STAGE;
   if (config->stage == BSM_STAGE_AGGREGATED && !sgm) return BSM_ERROR_STAGE;
   if (!within(config->format, BSM_FORMAT_GRAY8, kHasColor ? BSM_FORMAT_YUYV : BSM_FORMAT_GRAY8)) return BSM_ERROR_FORMAT;
   if (!within(config->paths, 3, 5) && config->paths != 8) return BSM_ERROR_PATHS;
@@ -79,7 +81,7 @@ bsm_status validate_config(const bsm_config* config) {
   if (!within(config->smooth_distance, 2, 64)) return BSM_ERROR_SMOOTH_DISTANCE;
   if (!within(config->median, 0, 1)) return BSM_ERROR_MEDIAN;
   if (!within(config->right_map, 0, 1)) return BSM_ERROR_RIGHT_MAP;
-  if (!within(config->confidence, 0, 1)) return BSM_ERROR_CONFIDENCE;
+  if (!within(config->confidence, 0, kHasConfidence ? 1 : 0)) return BSM_ERROR_CONFIDENCE;
   if (!within(config->max_jobs, 1, BSM_MAX_JOBS)) return BSM_ERROR_JOBS;
   return BSM_OK;
 }

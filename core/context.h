@@ -57,7 +57,7 @@ inline bool uses_sgm(const bsm_context& context) {
 }
 
 inline bool uses_fractions(const bsm_context& context) {
-  return kHasSgm && context.plan.fraction_radius != 0;
+  return kHasSgm && kHasRefinement && context.plan.fraction_radius != 0;
 }
 
 }  // namespace bsm

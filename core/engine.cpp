@@ -67,13 +67,14 @@ void write_maps(const bsm_context& context, const RowSink& sink, int32_t y, uint
   int16_t* disparity = map_row(sink.disparity, y);
   write_row(context, kLeft, y, disparity, job);
   if (sink.right_disparity.data != nullptr) write_row(context, kRight, y, map_row(sink.right_disparity, y), job);
-  if (sink.confidence.data != nullptr) {
+  if (kHasConfidence && sink.confidence.data != nullptr) {
     confidence_row(context, y, disparity, sink.confidence.data + y * sink.confidence.stride);
   }
 }
 
-// Row y of a step that works on one view at a time.
+// Row y of a step that works on one view at a time: of the refinement.
 void step_view(const bsm_context& context, Step step, View view, int32_t y, uint8_t* job) {
+  if (!kHasRefinement) return;
   switch (step) {
     case kDespeckle:
       return despeckle_row(context, view, y);
@@ -118,7 +119,7 @@ void do_share(const bsm_context& context, const Move& move, Share share) {
     const Rows rows = lagging(context, move.from, move.to, plan.lag + plan.turn * skew);
     if (kHasSgm && kAcross <= step && step < kAcross + kMaxAcrossPaths) {
       aggregate_across(context, step - kAcross, 1, rows, share);
-    } else if (step == kFill) {  // row after row
+    } else if (kHasRefinement && step == kFill) {  // row after row
       if (share.job != 0) continue;
       for (int32_t y = rows.begin; y < rows.end; ++y) {
         for (int32_t view = 0; view < views_kept(context); ++view) fill_row(context, static_cast<View>(view), y);

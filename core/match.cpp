@@ -122,7 +122,7 @@ void check_row(const bsm_context& context, int32_t y, uint8_t* job) {
   const bsm_config& config = context.config;
   const Plan& plan = context.plan;
   if (uses_sgm(context) && config.right_costs == BSM_RIGHT_COSTS_LEFT) pick_right_winners(context, y, job);
-  if (plan.margin.rows != 0) measure_margins(context, y);
+  if (kHasConfidence && plan.margin.rows != 0) measure_margins(context, y);
   const Winners winners{
       {ring_row<const uint16_t>(context, plan.winner[kLeft], y), ring_row<const uint16_t>(context, plan.winner[kRight], y)},
       config.width,
@@ -136,7 +136,7 @@ void check_row(const bsm_context& context, int32_t y, uint8_t* job) {
     } else {
       copy_levels(winners, view, out);
     }
-    if (plan.border_radius != 0 && !filtered) fit_row(context, view, y);
+    if (kHasRefinement && plan.border_radius != 0 && !filtered) fit_row(context, view, y);
   }
 }
 

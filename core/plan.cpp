@@ -27,11 +27,12 @@ class Carver {
     next_ = offset + bytes;
     return static_cast<size_t>(offset);
   }
-  // A ring whose rows have `before` bytes in front of x = 0.
-  Ring take_ring(int32_t rows, uint32_t before, uint32_t row_bytes) {
-    const uint32_t stride = round_up(row_bytes, 8);
-    const size_t offset = rows == 0 ? 0 : take(uint64_t{static_cast<uint32_t>(rows)} * stride) + before;
-    return Ring{offset, rows, stride};
+  // A ring whose rows have `before` bytes in front of x = 0; without rows it is not needed.
+  void take_ring(int32_t rows, uint32_t row_bytes, uint32_t before, Ring* ring) {
+    if (rows == 0) return;
+    ring->rows = rows;
+    ring->stride = round_up(row_bytes, 8);
+    ring->offset = take(uint64_t{static_cast<uint32_t>(rows)} * ring->stride) + before;
   }
   uint64_t used() const { return round_up(next_, kArenaAlignment); }
 
@@ -47,9 +48,13 @@ bool is_sgm(const bsm_config& config) {
   return kHasSgm && config.method == BSM_METHOD_SGM && config.stage >= BSM_STAGE_AGGREGATED;
 }
 
+bool is_refined(const bsm_config& config) {
+  return kHasRefinement && config.stage == BSM_STAGE_REFINED;
+}
+
 // Stages that run and their radii.
 void plan_stages(const bsm_config& config, Plan* plan) {
-  const bool refined = config.stage == BSM_STAGE_REFINED;
+  const bool refined = is_refined(config);
   plan->pattern_radius = has_sgm_pattern(config) ? kSgmRadius : kLocalRadius;
   plan->speckle_radius = refined && config.speckle != 0 ? kSpeckleRadius : 0;
   plan->border_radius = refined && config.border != 0 ? kBorderRadius : 0;
@@ -66,7 +71,7 @@ void plan_stages(const bsm_config& config, Plan* plan) {
 
 // The steps that run, how far each is behind the input, and how many rows move at once.
 void plan_steps(const bsm_config& config, Plan* plan) {
-  const bool refined = config.stage == BSM_STAGE_REFINED;
+  const bool refined = is_refined(config);
   int32_t lag = 0;
   int8_t turn = 0;
   const auto add = [&](int32_t step, bool runs, int32_t radius) {
@@ -148,9 +153,9 @@ void make_plan(const bsm_config& config, const Kernels& kernels, uint64_t contex
   BSM_MEMSET(&plan, 0, sizeof plan);
   plan_stages(config, &plan);
   plan_steps(config, &plan);
-  const bool refined = config.stage == BSM_STAGE_REFINED;
+  const bool refined = is_refined(config);
   const bool sgm = is_sgm(config);
-  const bool confidence = config.confidence != 0;
+  const bool confidence = kHasConfidence && config.confidence != 0;
   const bool fractions = plan.fraction_radius != 0;
 
   // Each ring spans from the oldest row that its last reader needs to the newest written.
@@ -188,43 +193,45 @@ void make_plan(const bsm_config& config, const Kernels& kernels, uint64_t contex
   carver.take(context_bytes);
   plan.pairs = carver.take(static_cast<uint32_t>(config.bits) * sizeof(PixelPair));
   if constexpr (kOrdersPatterns) plan.order = carver.take(kernels.ordered ? pattern_order_bytes(config.bits) : 0);
+  const int32_t views = config.right_map != 0 ? kViews : kLeft + 1;  // whose maps are kept
   for (int32_t view = 0; view < kViews; ++view) {
-    const bool wanted = view == kLeft || config.right_map != 0;
-    const int32_t lab_rows = largest(refined && wanted ? refine_lab_rows : window_rows, view == kLeft ? edge_lab_rows : 0);
-    plan.luma[view] = carver.take_ring(window_rows, bytes_of(pad), bytes_of(padded));
-    plan.lab[view] =
-        carver.take_ring(plan.planes == 0 ? 0 : largest(lab_rows, all), pad, padded * static_cast<uint32_t>(plan.planes));
-    plan.winner[view] = carver.take_ring(largest(winner_rows, all), 0, level_bytes);
-    plan.checked[view] =
-        carver.take_ring(wanted ? ring_rows(plan, kCheck, kDespeckle, plan.speckle_radius) : 0, 0, level_bytes);
-    plan.level[view] = carver.take_ring(wanted ? level_rows : 0, 0, level_bytes);
-    plan.fit[view] = carver.take_ring(wanted && border != 0 ? fit_rows : 0, 0, uint32_t{sizeof(BorderFit)});
-    plan.voted[view] = carver.take_ring(wanted ? voted_rows : 0, 0, level_bytes);
-    plan.fraction[view] =
-        carver.take_ring(wanted ? ring_rows(plan, kRestore, kSmoothFraction, plan.fraction_radius) : 0, 0, level_bytes);
-    plan.fraction_weight[view] =
-        carver.take_ring(wanted ? ring_rows(plan, kRestore, kWrite, plan.fraction_radius) : 0, 0, width);
-    plan.fraction_once[view] =
-        carver.take_ring(wanted ? ring_rows(plan, kSmoothFraction, kWrite, plan.fraction_radius) : 0, 0, level_bytes);
+    const int32_t lab_rows =
+        largest(refined && view < views ? refine_lab_rows : window_rows, view == kLeft ? edge_lab_rows : 0);
+    carver.take_ring(window_rows, bytes_of(padded), bytes_of(pad), &plan.luma[view]);
+    if (plan.planes != 0) {
+      carver.take_ring(largest(lab_rows, all), padded * static_cast<uint32_t>(plan.planes), pad, &plan.lab[view]);
+    }
+    carver.take_ring(largest(winner_rows, all), level_bytes, 0, &plan.winner[view]);
+  }
+  for (int32_t view = 0; view < views; ++view) {
+    carver.take_ring(ring_rows(plan, kCheck, kDespeckle, plan.speckle_radius), level_bytes, 0, &plan.checked[view]);
+    carver.take_ring(level_rows, level_bytes, 0, &plan.level[view]);
+    if (border != 0) carver.take_ring(fit_rows, sizeof(BorderFit), 0, &plan.fit[view]);
+    carver.take_ring(voted_rows, level_bytes, 0, &plan.voted[view]);
+    const int32_t reach = plan.fraction_radius;
+    carver.take_ring(ring_rows(plan, kRestore, kSmoothFraction, reach), level_bytes, 0, &plan.fraction[view]);
+    carver.take_ring(ring_rows(plan, kRestore, kWrite, reach), width, 0, &plan.fraction_weight[view]);
+    carver.take_ring(ring_rows(plan, kSmoothFraction, kWrite, reach), level_bytes, 0, &plan.fraction_once[view]);
     for (int32_t pass = 0; pass < plan.smooth_passes; ++pass) {
       const bool last = kSmooth + pass == last_smooth;
       const int32_t rows =
           ring_rows(plan, kSmooth + pass, last ? dense_reader : kSmooth + pass + 1, last ? plan.median_radius : smooth);
-      plan.smoothed[pass][view] = carver.take_ring(wanted ? rows : 0, 0, level_bytes);
+      carver.take_ring(rows, level_bytes, 0, &plan.smoothed[pass][view]);
     }
   }
-  plan.margin = carver.take_ring(sgm && confidence ? ring_rows(plan, kCheck, kWrite, 0) : 0, 0, width);
-  const uint32_t costs = bytes_of(static_cast<uint32_t>(config.width) * static_cast<uint32_t>(plan.level_stride));
-  const int32_t last_across = kAcross + plan.across_paths - 1;
-  const int32_t cost_rows = sgm ? ring_rows(plan, kMatch, last_across, 0) : 0;
-  plan.cost = carver.take_ring(largest(cost_rows, sgm ? all : 0), 0, costs);
-  // The left view's winners are picked where the last path is added.
-  const int32_t sum_reader = confidence || config.right_costs == BSM_RIGHT_COSTS_LEFT ? kCheck : last_across;
-  plan.sum = carver.take_ring(sgm ? largest(ring_rows(plan, kMatch, sum_reader, 0), all) : 0, 0, costs);
-  // A path's costs are updated in place where no other job may still read those of the row before.
-  for (int32_t path = 0; path < kMaxAcrossPaths; ++path) {
-    const bool in_place = plan.batch == 1 || path_dx(path) == 0;
-    plan.path[path] = carver.take_ring(path >= plan.across_paths ? 0 : in_place ? 1 : plan.batch + 1, 0, costs);
+  if (sgm) {
+    const uint32_t costs = bytes_of(static_cast<uint32_t>(config.width) * static_cast<uint32_t>(plan.level_stride));
+    const int32_t last_across = kAcross + plan.across_paths - 1;
+    // The left view's winners are picked where the last path is added.
+    const int32_t sum_reader = confidence || config.right_costs == BSM_RIGHT_COSTS_LEFT ? kCheck : last_across;
+    if (confidence) carver.take_ring(ring_rows(plan, kCheck, kWrite, 0), width, 0, &plan.margin);
+    carver.take_ring(largest(ring_rows(plan, kMatch, last_across, 0), all), costs, 0, &plan.cost);
+    carver.take_ring(largest(ring_rows(plan, kMatch, sum_reader, 0), all), costs, 0, &plan.sum);
+    // A path's costs are updated in place where no other job may still read those of the row before.
+    for (int32_t path = 0; path < plan.across_paths; ++path) {
+      const bool in_place = plan.batch == 1 || path_dx(path) == 0;
+      carver.take_ring(in_place ? 1 : plan.batch + 1, costs, 0, &plan.path[path]);
+    }
   }
   const uint32_t vote_side = refined ? static_cast<uint32_t>(vote + 1) : 0;
   plan.vote_steps = carver.take(bytes_of(vote_side * vote_side));

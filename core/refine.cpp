@@ -103,7 +103,7 @@ void continue_row(const bsm_context& context, View view, int32_t y) {
 
 Columns measured_columns(const bsm_context& context, View view, int32_t y) {
   const int32_t width = context.config.width;
-  if (context.plan.border_radius == 0) return Columns{0, width};
+  if (!kHasRefinement || context.plan.border_radius == 0) return Columns{0, width};
   const int32_t first = ring_row<const BorderFit>(context, context.plan.fit[view], y)->first;
   const int32_t filled = first < 0 ? 0 : first;
   return border_at_left(context.config, view) ? Columns{filled, width} : Columns{0, width - filled};
@@ -189,7 +189,7 @@ void write_row(const bsm_context& context, View view, int32_t y, int16_t* out, u
   uint16_t* levels = reinterpret_cast<uint16_t*>(out);  // the unsigned twin of the output type
   if (uses_fractions(context)) {
     smooth_fractions(context, view, plan.fraction_once[view], y, levels, job);
-  } else if (context.config.stage == BSM_STAGE_REFINED) {
+  } else if (kHasRefinement && context.config.stage == BSM_STAGE_REFINED) {
     take_dense_row(context, view, y, levels);
   } else {
     BSM_MEMCPY(levels, ring_row<const uint16_t>(context, plan.level[view], y), static_cast<size_t>(width) * sizeof *levels);

@@ -1,14 +1,51 @@
 // Words for people: status sentences and the version.
+#include <stdint.h>
+
 #include "bsm/bsm.h"
+#include "simd/build.h"
 
 #define BSM_TEXT_OF(token) #token
 #define BSM_VERSION_TEXT(major, minor, patch) BSM_TEXT_OF(major) "." BSM_TEXT_OF(minor) "." BSM_TEXT_OF(patch)
+
+namespace bsm {
+namespace {
+
+// The number of every status as text, for builds without text.
+constexpr int32_t kFirstStatus = BSM_ERROR_ISA;
+constexpr int32_t kStatuses = BSM_END - kFirstStatus + 1;
+
+struct Numbers {
+  char text[kStatuses][4];
+};
+
+constexpr Numbers make_numbers() {
+  Numbers numbers{};
+  for (int32_t i = 0; i < kStatuses; ++i) {
+    const int32_t status = kFirstStatus + i;
+    const int32_t magnitude = status < 0 ? -status : status;
+    char* end = numbers.text[i];
+    if (status < 0) *end++ = '-';
+    if (magnitude >= 10) *end++ = static_cast<char>('0' + magnitude / 10);
+    *end = static_cast<char>('0' + magnitude % 10);
+  }
+  return numbers;
+}
+
+constexpr Numbers kNumbers = make_numbers();
+
+const char* number_of(int32_t status) {
+  return kFirstStatus <= status && status <= BSM_END ? kNumbers.text[status - kFirstStatus] : "unknown status";
+}
+
+}  // namespace
+}  // namespace bsm
 
 extern "C" const char* bsm_version(void) {
   return BSM_VERSION_TEXT(BSM_VERSION_MAJOR, BSM_VERSION_MINOR, BSM_VERSION_PATCH);
 }
 
 extern "C" const char* bsm_status_string(bsm_status status) {
+  if (!bsm::kHasText) return bsm::number_of(status);
   switch (status) {
     case BSM_OK:
       return "done";
@@ -79,7 +116,7 @@ extern "C" const char* bsm_status_string(bsm_status status) {
     case BSM_ERROR_RIGHT_MAP:
       return "right_map is neither 0 nor 1";
     case BSM_ERROR_CONFIDENCE:
-      return "confidence is neither 0 nor 1";
+      return "confidence is neither 0 nor 1, or was not built";
     case BSM_ERROR_JOBS:
       return "max_jobs is not within 1..64";
     case BSM_ERROR_MEMORY_SIZE:
@@ -104,6 +141,8 @@ extern "C" const char* bsm_status_string(bsm_status status) {
       return "every row of the image has already been pushed";
     case BSM_ERROR_PULL_FIRST:
       return "a finished row waits: pull it before the next push";
+    case BSM_ERROR_ISA:
+      return "isa_mask leaves no kernels: this build has no scalar ones";
   }
   return "unknown status";
 }

@@ -30,6 +30,11 @@
 #define BSM_ARCH_NEON 0
 #endif
 
+#if defined(__ARM_ARCH_PROFILE)
+#define BSM_ARCH_CORTEX_M (__ARM_ARCH_PROFILE == 'M')
+#else
+#define BSM_ARCH_CORTEX_M 0
+#endif
 // M-profile processors, little-endian: vectors of integers, or else SIMD in core registers. Such a processor reports nothing
 // at run time; what the compiler targets is what it has.
 #if (defined(__GNUC__) || defined(__clang__)) && !defined(__ARM_BIG_ENDIAN) && defined(__ARM_FEATURE_MVE)
@@ -37,9 +42,8 @@
 #else
 #define BSM_ARCH_MVE 0
 #endif
-#if (defined(__GNUC__) || defined(__clang__)) && !defined(__ARM_BIG_ENDIAN) && defined(__ARM_FEATURE_SIMD32) && \
-    defined(__ARM_ARCH_PROFILE) && !BSM_ARCH_MVE
-#define BSM_ARCH_DSP (__ARM_ARCH_PROFILE == 'M')
+#if (defined(__GNUC__) || defined(__clang__)) && !defined(__ARM_BIG_ENDIAN) && defined(__ARM_FEATURE_SIMD32) && !BSM_ARCH_MVE
+#define BSM_ARCH_DSP BSM_ARCH_CORTEX_M
 #else
 #define BSM_ARCH_DSP 0
 #endif
@@ -68,6 +72,7 @@
 #define BSM_MEMSET(to, byte, bytes) __builtin_memset((to), (byte), (bytes))
 #define BSM_RESTRICT __restrict__
 #define BSM_NOINLINE __attribute__((noinline))
+#define BSM_COLD __attribute__((noinline, cold))            // seldom called: made for size
 #define BSM_KEEP_ORDER() __asm__ volatile("" ::: "memory")  // loads below stay below: fewer values wait in registers
 #define BSM_INLINE inline __attribute__((always_inline))
 #else
@@ -76,6 +81,7 @@
 #define BSM_MEMSET(to, byte, bytes) memset((to), (byte), (bytes))
 #define BSM_RESTRICT __restrict
 #define BSM_NOINLINE __declspec(noinline)
+#define BSM_COLD BSM_NOINLINE
 #define BSM_KEEP_ORDER()
 #define BSM_INLINE __forceinline
 #endif

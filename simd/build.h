@@ -1,7 +1,9 @@
-// What this build of the library holds. CMake's options BSM_LOCAL, BSM_SGM and BSM_COLOR leave out what a small machine does
-// not use; a configuration that asks for it is refused.
+// What this build of the library holds. CMake's options BSM_LOCAL, BSM_SGM and so on leave out what a small machine does not
+// use; a configuration that asks for it is refused.
 #ifndef BSM_SIMD_BUILD_H
 #define BSM_SIMD_BUILD_H
+
+#include "platform/compiler.h"
 
 #ifndef BSM_BUILD_LOCAL
 #define BSM_BUILD_LOCAL 1
@@ -12,13 +14,30 @@
 #ifndef BSM_BUILD_COLOR
 #define BSM_BUILD_COLOR 1
 #endif
+#ifndef BSM_BUILD_REFINEMENT
+#define BSM_BUILD_REFINEMENT 1
+#endif
+#ifndef BSM_BUILD_CONFIDENCE
+#define BSM_BUILD_CONFIDENCE 1
+#endif
+#ifndef BSM_BUILD_TEXT
+#define BSM_BUILD_TEXT 1
+#endif
+#ifndef BSM_BUILD_SCALAR
+#define BSM_BUILD_SCALAR 1
+#endif
 
 namespace bsm {
 
 constexpr bool kHasLocal = BSM_BUILD_LOCAL != 0;
 constexpr bool kHasSgm = BSM_BUILD_SGM != 0;
 constexpr bool kHasColor = BSM_BUILD_COLOR != 0;  // else gray8 alone
+constexpr bool kHasRefinement = BSM_BUILD_REFINEMENT != 0;
+constexpr bool kHasConfidence = BSM_BUILD_CONFIDENCE != 0;
+constexpr bool kHasText = BSM_BUILD_TEXT != 0;      // sentences about statuses, names of kernels
+constexpr bool kHasScalar = BSM_BUILD_SCALAR != 0;  // else only for stages without another kernel
 static_assert(kHasLocal || kHasSgm, "a library has a method");
+static_assert(kHasScalar || BSM_ARCH_CORTEX_M, "other processors tell their instruction sets when the library runs");
 
 }  // namespace bsm
 

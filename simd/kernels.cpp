@@ -15,7 +15,7 @@ enum StageIndex : int32_t {
 };
 static_assert(int32_t{kStageCount} == int32_t{BSM_KERNEL_COUNT}, "bsm_kernel names every stage of simd/stages.def");
 
-// Stages of a method that the build leaves out have no kernels.
+// Stages that the build leaves out have no kernels.
 constexpr bool is_built(StageIndex stage) {
   switch (stage) {
     case match_hamming_index:
@@ -25,8 +25,12 @@ constexpr bool is_built(StageIndex stage) {
     case aggregate_along_index:
     case aggregate_across_index:
     case winner_sums_index:
-    case fraction_smooth_index:
       return kHasSgm;
+    case fraction_smooth_index:
+      return kHasSgm && kHasRefinement;
+    case vote_weigh_index:
+    case median_weighted_index:
+      return kHasRefinement;
     default:
       return true;
   }
@@ -37,18 +41,30 @@ constexpr bool reads_order(StageIndex stage, uint32_t required) {
   return (stage == descriptor_compare_index || stage == mask_threshold_index) && (required & kIsaSse42) == kIsaSse42;
 }
 
+// True for a scalar kernel whose stage has another one, in a build that leaves it out.
+constexpr bool is_left_out(StageIndex stage, uint32_t required) {
+  if (kHasScalar || required != kIsaScalar) return false;
+  bool replaced = false;
+#define BSM_KERNEL(other_stage, operation, isa, other_required, stage_block) \
+  replaced = replaced || (stage == other_stage##_##operation##_index && (other_required) != kIsaScalar);
+#include "simd/kernels.def"
+#undef BSM_KERNEL
+  return replaced;
+}
+
 }  // namespace
 
 Kernels select_kernels(uint32_t features) {
   Kernels kernels{};
   int32_t blocks[kStageCount] = {};
-#define BSM_KERNEL(stage, operation, isa, required, stage_block)                               \
-  if (is_built(stage##_##operation##_index) && ((required) & ~features) == 0) {                \
-    kernels.stage##_##operation = stage##_##operation##_##isa;                                 \
-    kernels.name[stage##_##operation##_index] = #stage "_" #operation "_" #isa;                \
-    kernels.scratch[stage##_##operation##_index] = stage##_##operation##_##isa##_scratch;      \
-    blocks[stage##_##operation##_index] = (stage_block);                                       \
-    kernels.ordered = kernels.ordered || reads_order(stage##_##operation##_index, (required)); \
+#define BSM_KERNEL(stage, operation, isa, required, stage_block)                                      \
+  if (is_built(stage##_##operation##_index) && !is_left_out(stage##_##operation##_index, required) && \
+      ((required) & ~features) == 0) {                                                                \
+    kernels.stage##_##operation = stage##_##operation##_##isa;                                        \
+    kernels.name[stage##_##operation##_index] = kHasText ? #stage "_" #operation "_" #isa : nullptr;  \
+    kernels.scratch[stage##_##operation##_index] = stage##_##operation##_##isa##_scratch;             \
+    blocks[stage##_##operation##_index] = (stage_block);                                              \
+    kernels.ordered = kernels.ordered || reads_order(stage##_##operation##_index, (required));        \
   }
 #include "simd/kernels.def"
 #undef BSM_KERNEL
@@ -59,6 +75,10 @@ Kernels select_kernels(uint32_t features) {
 #include "simd/stages.def"
 #undef BSM_STAGE
   return kernels;
+}
+
+bool is_complete(const Kernels& kernels) {
+  return kHasScalar || kernels.descriptor_compare != nullptr;
 }
 
 uint64_t kernel_scratch_bytes(const Kernels& kernels, const KernelShape& shape) {

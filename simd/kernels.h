@@ -280,6 +280,9 @@ struct Kernels {
 // Chooses, for each stage, the last kernel of simd/kernels.def whose required features are all among `features`.
 Kernels select_kernels(uint32_t features);
 
+// False when `features` left a stage without a kernel, which takes a build without scalar kernels.
+bool is_complete(const Kernels& kernels);
+
 // Bytes of scratch that one job of these kernels needs, at most.
 uint64_t kernel_scratch_bytes(const Kernels& kernels, const KernelShape& shape);
 

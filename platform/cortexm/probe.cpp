@@ -237,6 +237,7 @@ void match_frame(bsm_context* context, const Scene& scene, Shelf shelf, Sink* si
 // The instruction set of the mask's kernel, the end of its name; every set that kernels are written for has one.
 const char* isa_name(const bsm_context* context) {
   const char* name = bsm_kernel_name(context, BSM_KERNEL_MASK);
+  if (name == nullptr) return "-";  // a library without text
   for (const char* end = name; *end != 0; ++end) {
     if (*end == '_') name = end + 1;
   }

@@ -49,6 +49,16 @@ inline uint32_t count_two(const Fields& fields, const Own* own, const uint8_t* o
   return __usad8(first_bytes, 0) | __usad8(second_bytes, 0) << 16;
 }
 
+// Cost of one candidate by some words, which is left over where their number is odd.
+BSM_NOINLINE uint32_t count_one(const Own* own, const uint8_t* other, int32_t words) {
+  uint32_t count = 0;
+  for (const Own* const end = own + words; own != end; ++own, other += 4) {
+    const uint32_t nibbles = count_nibbles(Fields{}, (own->descriptor ^ load32(other)) & own->mask);
+    count = __usada8(add_nibbles(Fields{}, nibbles), 0, count);
+  }
+  return count;
+}
+
 // The costs of `count` consecutive candidates by kWords words of their descriptors, added to those of the words before them,
 // of which `kept` keeps all bits or none.
 template <int32_t kWords>
@@ -63,7 +73,7 @@ BSM_NOINLINE void count_costs(const uint8_t* descriptor, const uint8_t* mask, co
     const uint32_t bits = (load32(cost) & kept) + count_two<kWords>(fields, own, other, step);
     BSM_MEMCPY(cost, &bits, sizeof bits);
   }
-  if (count == 1) *cost = static_cast<uint16_t>((*cost & kept) + count_two<kWords>(fields, own, other, 0));
+  if (count == 1) *cost = static_cast<uint16_t>((*cost & kept) + count_one(own, other, kWords));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #if BSM_ARCH_MVE
 #include "simd/arm/mve.h"
+#include "simd/build.h"
 #include "simd/kernels.h"
 
 namespace bsm {
@@ -34,7 +35,7 @@ uint64_t edge_threshold_mve_scratch(const KernelShape&) {
 }
 
 void edge_threshold_mve(const EdgeThresholdArgs& args) {
-  if (args.planes == 3) {
+  if (kHasColor && args.planes == 3) {
     find_edges<3>(args);
   } else {
     find_edges<1>(args);

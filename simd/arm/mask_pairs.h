@@ -50,7 +50,7 @@ inline uint32_t whole_sad(const MaskThresholdArgs& args, int32_t x, const uint8_
 
 // The mask of pixel x with whole weights, which take the place of the saturated ones.
 template <int32_t kLanes>
-BSM_NOINLINE void store_exact(const MaskThresholdArgs& args, int32_t x, const MaskScratch<kLanes>& scratch) {
+BSM_COLD void store_exact(const MaskThresholdArgs& args, int32_t x, const MaskScratch<kLanes>& scratch) {
   uint16_t* const weight = reinterpret_cast<uint16_t*>(scratch.weight);
   for (int32_t i = 0; i < scratch.bits; ++i) {
     const uint32_t p = whole_sad(args, x, scratch.points[i].p);

@@ -7,6 +7,7 @@
 #if BSM_ARCH_DSP
 #include "simd/arm/dsp.h"
 #include "simd/arm/mask_pairs.h"
+#include "simd/build.h"
 #include "simd/kernels.h"
 
 namespace bsm {
@@ -106,7 +107,7 @@ void mask_threshold_dsp(const MaskThresholdArgs& args) {
   int32_t top = 4;
   for (int32_t x = 0; x < args.width; x += kLanes) {
     const int32_t pixels = args.width - x < kLanes ? args.width - x : kLanes;
-    if (args.planes == 3) {
+    if (kHasColor && args.planes == 3) {
       pair_weights<3>(args, x, scratch);
     } else {
       pair_weights<1>(args, x, scratch);

@@ -9,6 +9,7 @@
 #include "simd/arm/mask_pairs.h"
 #include "simd/arm/mve.h"
 #include "simd/arm/population.h"
+#include "simd/build.h"
 #include "simd/kernels.h"
 
 namespace bsm {
@@ -120,7 +121,7 @@ void mask_threshold_mve(const MaskThresholdArgs& args) {
   int32_t top = 4;
   for (int32_t x = 0; x < args.width; x += kLanes) {
     const int32_t pixels = args.width - x < kLanes ? args.width - x : kLanes;
-    if (args.planes == 3) {
+    if (kHasColor && args.planes == 3) {
       pair_weights<3>(args, x, scratch);
     } else {
       pair_weights<1>(args, x, scratch);

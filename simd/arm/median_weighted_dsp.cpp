@@ -6,6 +6,7 @@
 
 #if BSM_ARCH_DSP
 #include "simd/arm/dsp.h"
+#include "simd/build.h"
 #include "simd/kernels.h"
 
 namespace bsm {
@@ -157,7 +158,7 @@ void median_weighted_dsp(const MedianWeightedArgs& args) {
   for (int32_t x = 0; x < args.width; ++x) {
     args.out[x] = levels[x];
     if (is_flat(args, x)) continue;
-    const int32_t count = args.planes == 3 ? gather<3>(args, x, scratch) : gather<1>(args, x, scratch);
+    const int32_t count = kHasColor && args.planes == 3 ? gather<3>(args, x, scratch) : gather<1>(args, x, scratch);
     args.out[x] = weighted_median(scratch, count);
   }
 }

@@ -7,6 +7,7 @@
 #if BSM_ARCH_MVE
 #include "simd/arm/inside.h"
 #include "simd/arm/mve.h"
+#include "simd/build.h"
 #include "simd/kernels.h"
 
 namespace bsm {
@@ -178,7 +179,7 @@ uint64_t median_weighted_mve_scratch(const KernelShape&) {
 void median_weighted_mve(const MedianWeightedArgs& args) {
   Scratch& scratch = *static_cast<Scratch*>(args.scratch);
   prepare(args, scratch);
-  if (args.planes == 3) {
+  if (kHasColor && args.planes == 3) {
     smooth_row<3>(args, scratch);
   } else {
     smooth_row<1>(args, scratch);

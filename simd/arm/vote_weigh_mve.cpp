@@ -5,6 +5,7 @@
 
 #if BSM_ARCH_MVE
 #include "simd/arm/mve.h"
+#include "simd/build.h"
 #include "simd/kernels.h"
 
 namespace bsm {
@@ -104,7 +105,7 @@ void vote_weigh_mve(const VoteWeighArgs& args) {
     args.out[x] = static_cast<uint16_t>(whole_level(levels[x]) << kLevelShift);
     if (levels[x] < kOccluded) continue;
     BSM_MEMSET(votes, 0, sizeof(uint32_t) * static_cast<uint32_t>(args.num_disparities));
-    if (args.planes == 3) {
+    if (kHasColor && args.planes == 3) {
       collect_votes<3>(args, x, scratch, votes);
     } else {
       collect_votes<1>(args, x, scratch, votes);

@@ -50,6 +50,18 @@ run_options() {
     same local --preset paper --bits 64 --stage cost --isa scalar
     refused local "the method is unknown or was not built" --preset fast
   fi
+  if smaller checked -DBSM_REFINEMENT=OFF -DBSM_CONFIDENCE=OFF; then
+    same checked --preset balanced --stage checked
+    same checked --preset paper --bits 256 --stage checked --isa scalar
+    refused checked "the stage is unknown" --preset fast
+    refused checked "confidence is neither 0 nor 1, or was not built" --stage checked --confidence-out "$out/refused-confidence.pgm"
+  fi
+  if smaller silent -DBSM_TEXT=OFF; then
+    same silent --preset fast
+    refused silent "--bits: -9" --preset fast --bits 2048
+  fi
+  expect "no scalar kernels on this machine, refused" refuses "is for Cortex-M" cmake -S "$root" -B "$out/no-scalar" \
+    -DBSM_BUILD_TESTS=OFF -DBSM_SCALAR=OFF
   expect "no method, refused" refuses "both off" cmake -S "$root" -B "$out/no-method" -DBSM_LOCAL=OFF -DBSM_SGM=OFF
   expect "tests of a part, refused" refuses "the whole library" cmake -S "$root" -B "$out/part-tests" -DBSM_SGM=OFF
 }

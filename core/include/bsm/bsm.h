@@ -88,7 +88,7 @@ typedef enum bsm_status {
   BSM_ERROR_SMOOTH_DISTANCE = -29, /* smooth_distance is not within 2..64 */
   BSM_ERROR_MEDIAN = -30,          /* median is neither 0 nor 1 */
   BSM_ERROR_RIGHT_MAP = -31,       /* right_map is neither 0 nor 1 */
-  BSM_ERROR_CONFIDENCE = -32,      /* confidence is neither 0 nor 1 */
+  BSM_ERROR_CONFIDENCE = -32,      /* confidence is neither 0 nor 1, or 1 and not built */
   BSM_ERROR_JOBS = -33,            /* max_jobs is not within 1..BSM_MAX_JOBS */
   BSM_ERROR_MEMORY_SIZE = -34,     /* the configuration needs more bytes than size_t can count (32-bit machines) */
   BSM_ERROR_ARENA = -35,           /* the arena is smaller than bsm_memory_required says */
@@ -100,7 +100,8 @@ typedef enum bsm_status {
   BSM_ERROR_STREAM_OPEN = -41,     /* bsm_process while rows are in flight; pull to the end or call bsm_reset */
   BSM_ERROR_ROW_MODE = -42,        /* the row API with 8 paths, which need the whole frame; use bsm_process or fewer paths */
   BSM_ERROR_ROW_COUNT = -43,       /* bsm_push_row after the last row of the image, or after bsm_finish */
-  BSM_ERROR_PULL_FIRST = -44       /* bsm_push_row while a finished row waits; call bsm_pull_row first */
+  BSM_ERROR_PULL_FIRST = -44,      /* bsm_push_row while a finished row waits; call bsm_pull_row first */
+  BSM_ERROR_ISA = -45              /* isa_mask leaves nothing: this build has no scalar kernels */
 } bsm_status;
 
 /* How costs become disparities. */
@@ -312,19 +313,19 @@ BSM_API bsm_status bsm_reset(bsm_context* context);
 /* Value of an invalid pixel: (min_disparity - 1) * 16. Dense maps have none. */
 BSM_API int16_t bsm_invalid_disparity(const bsm_config* config);
 
-/* One English sentence about a status; never NULL. */
+/* One English sentence about a status, or its number in a build without text; never NULL. */
 BSM_API const char* bsm_status_string(bsm_status status);
 
 /* "major.minor.patch" of the library. */
 BSM_API const char* bsm_version(void);
 
-/* CPU features of this machine that kernels exist for, as bits; bsm_cpu_feature_name(bit) names one, NULL when it has none.
- */
+/* CPU features of this machine that kernels exist for, as bits; bsm_cpu_feature_name(bit) names one, NULL when it has none
+ * and in a build without text. */
 BSM_API uint32_t bsm_cpu_features(void);
 BSM_API const char* bsm_cpu_feature_name(int32_t bit);
 
-/* Name of the kernel that context runs for a stage, as "stage_operation_isa"; NULL for a bad argument and for
- * stages of a method that was not built. */
+/* Name of the kernel that context runs for a stage, as "stage_operation_isa"; NULL for a bad argument, for stages that were
+ * not built and in a build without text. */
 BSM_API const char* bsm_kernel_name(const bsm_context* context, bsm_kernel kernel);
 
 #ifdef __cplusplus
