@@ -480,6 +480,12 @@ TEST_CASE(info) {
   CHECK(run.out.find("mask_threshold_") != std::string::npos);
   CHECK(run.out.find(bsm_version()) != std::string::npos);
   check_run(work.bsm("info"), kOk);
+  for (const bsm_format format : kAllFormats) {
+    const std::string name = format_name(format);
+    const Run one = work.bsm("info --width 40 --height 30 --format " + name);
+    check_run(one, kOk);
+    CHECK(one.out.find(" " + name + ",") != std::string::npos);
+  }
 }
 
 TEST_CASE(demo) {

@@ -18,7 +18,8 @@ constexpr Choice kStages[] = {{"cost", BSM_STAGE_COST},
                               {"checked", BSM_STAGE_CHECKED},
                               {"refined", BSM_STAGE_REFINED}};
 constexpr Choice kFormats[] = {{"gray8", BSM_FORMAT_GRAY8},   {"rgb24", BSM_FORMAT_RGB24},   {"bgr24", BSM_FORMAT_BGR24},
-                               {"rgba32", BSM_FORMAT_RGBA32}, {"bgra32", BSM_FORMAT_BGRA32}, {"rgb565", BSM_FORMAT_RGB565}};
+                               {"rgba32", BSM_FORMAT_RGBA32}, {"bgra32", BSM_FORMAT_BGRA32}, {"rgb565", BSM_FORMAT_RGB565},
+                               {"nv12", BSM_FORMAT_NV12},     {"nv21", BSM_FORMAT_NV21},     {"yuyv", BSM_FORMAT_YUYV}};
 
 template <size_t size>
 std::vector<Choice> all_of(const Choice (&choices)[size]) {

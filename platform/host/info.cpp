@@ -96,7 +96,8 @@ int info_command(const std::vector<std::string>& argument_list) {
   Options options("info", kUsage, kSummary);
   options.integer("--width", "W", &width, 1, BSM_MAX_SIZE, "image width in pixels");
   options.integer("--height", "H", &height, 1, BSM_MAX_SIZE, "image height in pixels");
-  options.choice("--format", &config.format, format_choices(), "pixel format");
+  options.choice("--format", &config.format, format_choices(),
+                 "pixel format of the library; files are gray8 (.pgm) or rgb24 (.ppm)");
   options.flag("--right-map", &right_map, "with the right view's map");
   config_options.add_search(&options);
   config_options.add_stage(&options);
