@@ -13,14 +13,15 @@ bool GuardedBuffer::available() {
   return true;
 }
 
-GuardedBuffer::GuardedBuffer(size_t bytes, Edge edge) : bytes_(bytes), page_(static_cast<size_t>(sysconf(_SC_PAGESIZE))) {
+GuardedBuffer::GuardedBuffer(size_t bytes, Edge edge, size_t rows)
+    : bytes_(bytes), rows_(rows), page_(static_cast<size_t>(sysconf(_SC_PAGESIZE))) {
   const size_t inner = (bytes + page_ - 1) / page_ * page_;
-  mapped_ = inner + 2 * page_;
-  void* mapping = mmap(nullptr, mapped_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  stride_ = inner + page_;
+  mapped_ = page_ + rows * stride_;
+  void* mapping = mmap(nullptr, mapped_, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   REQUIRE(mapping != MAP_FAILED);
   mapping_ = static_cast<uint8_t*>(mapping);
-  REQUIRE(mprotect(mapping_, page_, PROT_NONE) == 0);
-  REQUIRE(mprotect(mapping_ + page_ + inner, page_, PROT_NONE) == 0);
+  protect(PROT_READ | PROT_WRITE);
   data_ = mapping_ + page_ + (edge == Edge::kEnd ? inner - bytes : 0);
 }
 
@@ -29,7 +30,14 @@ GuardedBuffer::~GuardedBuffer() {
 }
 
 void GuardedBuffer::make_read_only() {
-  REQUIRE(mprotect(mapping_ + page_, mapped_ - 2 * page_, PROT_READ) == 0);
+  protect(PROT_READ);
+}
+
+// What may be done to the rows; nothing to the pages around them.
+void GuardedBuffer::protect(int protection) {
+  for (size_t y = 0; y < rows_; ++y) {
+    REQUIRE(mprotect(mapping_ + page_ + y * stride_, stride_ - page_, protection) == 0);
+  }
 }
 
 }  // namespace bsm::test
@@ -41,11 +49,12 @@ namespace bsm::test {
 bool GuardedBuffer::available() {
   return false;
 }
-GuardedBuffer::GuardedBuffer(size_t, Edge) {
+GuardedBuffer::GuardedBuffer(size_t, Edge, size_t) {
   SKIP("this system has no mmap");
 }
 GuardedBuffer::~GuardedBuffer() = default;
 void GuardedBuffer::make_read_only() {}
+void GuardedBuffer::protect(int) {}
 
 }  // namespace bsm::test
 

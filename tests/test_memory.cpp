@@ -85,6 +85,36 @@ class GuardedImage {
   bsm_image view_;
 };
 
+// The planes of an image with each row between pages that may not be touched, read-only, bottom-up when asked for.
+class GuardedRows {
+ public:
+  GuardedRows(const PixelImage& image, GuardedBuffer::Edge edge, bool upward, bool chroma_upward)
+      : pixels_(static_cast<size_t>(image.stride), edge, static_cast<size_t>(image.height)),
+        chroma_(static_cast<size_t>(image.chroma_stride), edge, image.chroma.empty() ? 0 : chroma_rows(image.height)) {
+    place(image.bytes, pixels_, static_cast<size_t>(image.height), upward, 0);
+    if (!image.chroma.empty()) place(image.chroma, chroma_, chroma_rows(image.height), chroma_upward, 1);
+  }
+  const bsm_image& view() const { return view_; }
+  bsm_row planes(int y) const {
+    bsm_row row{{static_cast<const uint8_t*>(view_.plane[0]) + y * view_.stride[0], nullptr}};
+    if (view_.plane[1]) row.plane[1] = static_cast<const uint8_t*>(view_.plane[1]) + y / 2 * view_.stride[1];
+    return row;
+  }
+
+ private:
+  static size_t chroma_rows(int height) { return static_cast<size_t>(height + 1) / 2; }
+  void place(const std::vector<uint8_t>& plane, GuardedBuffer& buffer, size_t rows, bool upward, size_t index) {
+    for (size_t y = 0; y < rows; ++y) {
+      std::copy_n(plane.data() + y * buffer.size(), buffer.size(), buffer.row(upward ? rows - 1 - y : y));
+    }
+    buffer.make_read_only();
+    view_.plane[index] = buffer.row(upward ? rows - 1 : 0);
+    view_.stride[index] = upward ? -buffer.stride() : buffer.stride();
+  }
+  GuardedBuffer pixels_, chroma_;
+  bsm_image view_{};
+};
+
 // The planes of an image at odd addresses, bottom-up when `upward`: the last row first in memory.
 class PlacedImage {
  public:
@@ -297,6 +327,41 @@ TEST_CASE(rows_at_page_edges_are_not_read_beyond) {
       while (bsm_pull_row(context, row, right_row, nullptr) == BSM_OK) map.insert(map.end(), row, row + width);
     }
     check_same_map(map, expected.left, config.width, "left map");
+  }
+}
+
+TEST_CASE(nothing_between_rows_is_read) {
+  if (!GuardedBuffer::available()) SKIP("this system has no page protection that the test knows");
+  Rng rng(seed() + 8);
+  const std::vector<uint32_t> masks = isa_masks();
+  for (int i = repeats(36); i-- > 0;) {
+    bsm_config config = random_config(rng, rng.range(1, 70), rng.range(1, 12));
+    config.format = kAllFormats[i % 9];
+    config.isa_mask = masks[static_cast<size_t>(rng.range(0, static_cast<int>(masks.size()) - 1))];
+    const bool left_up = rng.one_in(2), right_up = rng.one_in(2), chroma_up = rng.one_in(2);
+    const auto edge = rng.one_in(2) ? GuardedBuffer::Edge::kEnd : GuardedBuffer::Edge::kBegin;
+    const Scope scope(describe(config) + " upward=" + text_of(left_up) + text_of(right_up) + text_of(chroma_up));
+    const EncodedPair pair =
+        encode(make_pair(rng, Content::kShifted, config.width, config.height), static_cast<bsm_format>(config.format));
+    const Maps expected = match_frame(config, pair);
+    const GuardedRows left(pair.left, edge, left_up, chroma_up), right(pair.right, edge, right_up, !chroma_up);
+    Arena arena(arena_bytes(config));
+    bsm_context* context = nullptr;
+    REQUIRE_EQ(bsm_open(&config, arena.data(), arena.size(), &context), BSM_OK);
+    Maps maps;
+    bsm_frame frame = frame_for(config, pair, maps);
+    frame.left = left.view();
+    frame.right = right.view();
+    REQUIRE_EQ(bsm_process(context, &frame), BSM_OK);
+    check_same(maps, expected);
+
+    std::vector<int16_t> map, row(static_cast<size_t>(config.width));
+    for (int y = 0; y < config.height; ++y) {
+      const bsm_row l = left.planes(y), r = right.planes(y);
+      REQUIRE_EQ(bsm_push_row(context, &l, &r), BSM_OK);
+      while (bsm_pull_row(context, row.data(), nullptr, nullptr) == BSM_OK) map.insert(map.end(), row.begin(), row.end());
+    }
+    check_same_map(map, expected.left, config.width, "left map by rows");
   }
 }
 

@@ -237,13 +237,13 @@ typedef struct bsm_row {
 
 /* A disparity map in the caller's memory: width x height signed 16-bit values in 1/16 pixel. A left pixel (x, y) with value
  * v shows the same scene point as the right pixel (x - v / 16, y). Invalid pixels hold bsm_invalid_disparity. data and
- * stride (in bytes, may be negative) are multiples of 2. */
+ * stride (in bytes, may be negative) are multiples of 2. Nothing between the rows is written. */
 typedef struct bsm_map {
   int16_t* data;
   ptrdiff_t stride;
 } bsm_map;
 
-/* A map of bytes in the caller's memory: width x height values, rows `stride` bytes apart. */
+/* A map of bytes in the caller's memory: width x height values, rows `stride` bytes apart, nothing between them written. */
 typedef struct bsm_byte_map {
   uint8_t* data;
   ptrdiff_t stride;
