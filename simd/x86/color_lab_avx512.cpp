@@ -1,5 +1,5 @@
 // color_lab, AVX-512 BW, VBMI: sixteen pixels at once, nothing read or written beyond them.
-// Bound: the tables, three gathers of linear light and six of cube roots for sixteen pixels.
+// Bound: the tables, three gathers of linear light and three of cube roots for sixteen pixels.
 #include "platform/compiler.h"
 
 #if BSM_ARCH_X86_64
@@ -115,6 +115,27 @@ struct Yuyv {
   }
 };
 
+// The table of cube roots with the step to the next one: a root from 2^19 on takes 19 bits, a step 13.
+struct PackedCubeRoots {
+  static constexpr int32_t kStepBits = 13;
+  static constexpr uint32_t kLeast = 1u << 19;
+  uint32_t value[224];
+};
+
+constexpr PackedCubeRoots make_packed_cube_roots() {
+  PackedCubeRoots table{};
+  for (int32_t i = 0; i < 224; ++i) {
+    const uint32_t step = kCubeRoot.value[i + 1] - kCubeRoot.value[i];
+    table.value[i] = (kCubeRoot.value[i] - PackedCubeRoots::kLeast) << PackedCubeRoots::kStepBits | step;
+  }
+  return table;
+}
+
+constexpr PackedCubeRoots kPackedCubeRoots = make_packed_cube_roots();
+static_assert(kCubeRoot.value[0] == PackedCubeRoots::kLeast && kCubeRoot.value[224] == 2 * PackedCubeRoots::kLeast &&
+                  kCubeRoot.value[1] - kCubeRoot.value[0] < 1u << PackedCubeRoots::kStepBits,
+              "roots and their falling steps fit");
+
 // lab_f of simd/lab.h. Values that take the cube root are at least 2^25, so that at most two octaves are left out.
 inline __m512i cube_root(__m512i t) {
   const __m512i line =
@@ -127,8 +148,9 @@ inline __m512i cube_root(__m512i t) {
   m = _mm512_mask_mov_epi32(m, linear, set(1u << 29));
   const __m512i i = _mm512_sub_epi32(_mm512_srli_epi32(m, 24), set(CubeRootTable::kFirst));
   const __m512i fraction = _mm512_and_si512(_mm512_srli_epi32(m, 8), set(0xffff));
-  const __m512i low = gather(kCubeRoot.value, i);
-  const __m512i rise = _mm512_sub_epi32(gather(kCubeRoot.value + 1, i), low);
+  const __m512i packed = gather(kPackedCubeRoots.value, i);
+  const __m512i low = _mm512_add_epi32(_mm512_srli_epi32(packed, PackedCubeRoots::kStepBits), set(PackedCubeRoots::kLeast));
+  const __m512i rise = _mm512_and_si512(packed, set((1u << PackedCubeRoots::kStepBits) - 1));
   __m512i root = _mm512_add_epi32(low, _mm512_srli_epi32(_mm512_mullo_epi32(rise, fraction), 16));
   root = _mm512_mask_srli_epi32(root, one, root, 1);
   root = _mm512_mask_srli_epi32(root, two, root, 1);

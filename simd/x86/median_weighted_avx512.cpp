@@ -68,18 +68,19 @@ inline __m512i set16(uint32_t value) {
 struct Window {
   const MedianWeightedArgs& args;
   Scratch& scratch;
+  bool wide;      // colour differences above 127 weigh something more than the last weight
   int32_t count;  // taps
 };
 
-// Weights by colour difference for one distance: weights[min(127, (c * color_scale >> 8) + steps)].
-void make_table(const MedianWeightedArgs& args, uint32_t steps, uint8_t* table) {
+// Weights by colour difference below `colors` for one distance: weights[min(127, (c * color_scale >> 8) + steps)].
+void make_table(const MedianWeightedArgs& args, uint32_t steps, int32_t colors, uint8_t* table) {
   const __m512i low = _mm512_loadu_si512(args.weights);
   const __m512i high = _mm512_loadu_si512(args.weights + 64);
   const __m512i scale = set16(args.color_scale);
   const __m512i order = _mm512_setr_epi64(0, 2, 4, 6, 1, 3, 5, 7);
   const __m512i place = _mm512_setr_epi64(0x0706050403020100, 0x0f0e0d0c0b0a0908, 0x1716151413121110, 0x1f1e1d1c1b1a1918,
                                           0x2726252423222120, 0x2f2e2d2c2b2a2928, 0x3736353433323130, 0x3f3e3d3c3b3a3938);
-  for (int32_t i = 0; i < kColors; i += 64) {
+  for (int32_t i = 0; i < colors; i += 64) {
     const __m512i color = _mm512_add_epi8(place, set8(static_cast<uint32_t>(i)));
     const __m512i a = _mm512_slli_epi16(_mm512_cvtepu8_epi16(_mm512_castsi512_si256(color)), 8);
     const __m512i b = _mm512_slli_epi16(_mm512_cvtepu8_epi16(_mm512_extracti64x4_epi64(color, 1)), 8);
@@ -96,7 +97,8 @@ void prepare(Window& window) {
   const int32_t radius = args.radius;
   for (int32_t dy = 0; dy <= radius; ++dy) {
     for (int32_t dx = dy & 1; dx <= radius; dx += 2) {
-      make_table(args, args.distance_steps[dy * (radius + 1) + dx], scratch.tables[(dy * (radius + 2) + dx) / 2]);
+      make_table(args, args.distance_steps[dy * (radius + 1) + dx], window.wide ? kColors : kColors / 2,
+                 scratch.tables[(dy * (radius + 2) + dx) / 2]);
     }
   }
   window.count = 0;
@@ -194,7 +196,8 @@ BSM_NOINLINE void weigh_block(const Window& window, int32_t x) {
 
 // The weighted medians of the pixels x..x+31 that `moving` holds, the own levels of the others; `down`: the median lies
 // below. Levels of pixels that move down are complemented, so that all walk up, until the weight up to their level is at
-// least half of all; walking down, more than half, as the median is the least level up to which at least half lies.
+// least half of all; walking down, more than half, as the median is the least level up to which at least half lies. The next
+// level of the window is mostly a whole one away: that is tried first.
 template <bool kInside>
 BSM_NOINLINE __m512i walk(const Window& window, int32_t x, int32_t half, __mmask32 moving, __mmask32 down) {
   const MedianWeightedArgs& args = window.args;
@@ -202,8 +205,10 @@ BSM_NOINLINE __m512i walk(const Window& window, int32_t x, int32_t half, __mmask
   const __m512i flip = _mm512_maskz_set1_epi16(down, -1);
   const __m512i more = _mm512_mask_mov_epi16(_mm512_and_si512(sums.all, set16(1)), down, set16(1));
   const __m512i wanted = _mm512_add_epi16(_mm512_srli_epi16(sums.all, 1), more);
-  __m512i level = _mm512_xor_si512(sums.own, flip);
-  __m512i median = level;
+  const __m512i step = set16(1 << kLevelShift);
+  __m512i passed = _mm512_xor_si512(sums.own, flip);  // the median lies above
+  __m512i level = _mm512_adds_epu16(passed, step);
+  __m512i median = passed;
   while (true) {
     __m512i weight = sums.bonus;
     __m512i next = _mm512_set1_epi16(-1);
@@ -214,13 +219,16 @@ BSM_NOINLINE __m512i walk(const Window& window, int32_t x, int32_t half, __mmask
       const __m512i other = _mm512_xor_si512(load_tap_levels<kInside>(tap.levels + at, inside), flip);
       const __mmask32 within = _mm512_cmple_epu16_mask(other, level);
       weight = _mm512_mask_add_epi16(weight, within, weight, _mm512_load_si512(window.scratch.weight[i] + half * kHalf));
-      next = _mm512_mask_min_epu16(next, _knot_mask32(within), next, other);
+      next = _mm512_mask_min_epu16(next, _mm512_cmpgt_epu16_mask(other, passed), next, other);
     }
-    const __mmask32 done = _mm512_mask_cmpge_epu16_mask(moving, weight, wanted);
+    // Where the level tried is not the next one, the next one is tried.
+    const __mmask32 tried = _mm512_cmpeq_epi16_mask(next, level);
+    const __mmask32 done = _mm512_mask_cmpge_epu16_mask(moving & tried, weight, wanted);
     median = _mm512_mask_mov_epi16(median, done, level);
     moving &= ~done;
     if (moving == 0) return _mm512_xor_si512(median, flip);
-    level = next;
+    passed = _mm512_mask_mov_epi16(passed, tried, level);
+    level = _mm512_mask_adds_epu16(next, tried, level, step);
   }
 }
 
@@ -272,9 +280,7 @@ void smooth_row(const Window& window) {
 
 template <int32_t kPlanes>
 void smooth_row_of(const Window& window) {
-  // Differences above 127 weigh nothing but the last weight when 127 of them reach the last exponent.
-  const bool wide = 127 * window.args.color_scale >> 8 < 127;
-  return wide ? smooth_row<kPlanes, true>(window) : smooth_row<kPlanes, false>(window);
+  return window.wide ? smooth_row<kPlanes, true>(window) : smooth_row<kPlanes, false>(window);
 }
 
 }  // namespace
@@ -284,7 +290,8 @@ uint64_t median_weighted_avx512_scratch(const KernelShape&) {
 }
 
 void median_weighted_avx512(const MedianWeightedArgs& args) {
-  Window window{args, *static_cast<Scratch*>(args.scratch), 0};
+  // Not wide when a difference of 127 reaches the last exponent.
+  Window window{args, *static_cast<Scratch*>(args.scratch), 127 * args.color_scale >> 8 < 127, 0};
   prepare(window);
   return args.planes == 3 ? smooth_row_of<3>(window) : smooth_row_of<1>(window);
 }
