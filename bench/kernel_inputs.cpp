@@ -254,6 +254,7 @@ void prepare(Inputs& inputs, kernel_scratch_fn* scratch, AggregateAlongArgs* arg
   args->cost = take_costs(inputs, 1);
   args->edge = take_edges(inputs);
   set_penalties(inputs, args->penalties);
+  args->most_cost = inputs.bits;
   args->width = inputs.width;
   args->num_disparities = inputs.disparities;
   args->stride = inputs.level_stride();

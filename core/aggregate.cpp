@@ -63,6 +63,7 @@ BSM_NOINLINE void aggregate_view(const bsm_context& context, View view, int32_t 
   args.cost = cost;
   args.edge = edge;
   set_penalties(config, args.penalties);
+  args.most_cost = config.bits;
   args.width = config.width;
   args.num_disparities = config.num_disparities;
   args.stride = context.plan.level_stride;

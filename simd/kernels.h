@@ -146,6 +146,7 @@ struct AggregateAlongArgs {
   const uint16_t* cost;
   const uint8_t* edge;     // width flags: x against x - 1; edge[0] is not read
   Penalties penalties[2];  // without and with an edge
+  int32_t most_cost;       // costs of candidates are at most this
   int32_t width;
   int32_t num_disparities;
   int32_t stride;

@@ -49,9 +49,9 @@ const uint8_t* take_edges(const Trial& trial) {
   return edges;
 }
 
-void any_penalties(Rng& rng, Penalties (&penalties)[2]) {
+void any_penalties(Rng& rng, int most, Penalties (&penalties)[2]) {
   for (Penalties& penalty : penalties) {
-    penalty.p2 = static_cast<uint16_t>(rng.one_in(8) ? rng.range(0, 65535) : rng.range(0, 3000));
+    penalty.p2 = static_cast<uint16_t>(rng.one_in(8) ? rng.range(0, 65535) : rng.range(0, most));
     penalty.p1 = static_cast<uint16_t>(rng.range(0, penalty.p2));
   }
 }
@@ -120,10 +120,12 @@ void try_kernel(const Trial& trial, const Kernel<EdgeThresholdArgs>& kernel, con
 
 void try_kernel(const Trial& trial, const Kernel<AggregateAlongArgs>& kernel, const Kernel<AggregateAlongArgs>& scalar) {
   const Volume volume = any_volume(trial, kernel);
+  // Costs and penalties of short descriptors fit kernels that work in bytes.
   AggregateAlongArgs args{};
-  args.cost = take_costs(trial, volume, BSM_MAX_BITS);
+  args.most_cost = trial.rng.one_in(2) ? BSM_MAX_BITS : trial.rng.range(1, 254);
+  args.cost = take_costs(trial, volume, args.most_cost);
   args.edge = take_edges(trial);
-  any_penalties(trial.rng, args.penalties);
+  any_penalties(trial.rng, args.most_cost < 255 ? (255 - args.most_cost + 1) / 2 : 3000, args.penalties);
   args.width = trial.width;
   args.num_disparities = volume.num_disparities;
   args.stride = volume.stride;
@@ -144,7 +146,7 @@ void try_kernel(const Trial& trial, const Kernel<AggregateAcrossArgs>& kernel, c
   AggregateAcrossArgs args{};
   args.cost = take_costs(trial, volume, BSM_MAX_BITS);
   args.edge = take_edges(trial);
-  any_penalties(rng, args.penalties);
+  any_penalties(rng, 3000, args.penalties);
   args.dx = rng.range(-1, 1);
   args.begin = rng.one_in(2) ? 0 : rng.range(0, trial.width);
   args.end = rng.one_in(2) ? trial.width : rng.range(args.begin, trial.width);

@@ -19,7 +19,7 @@ struct Scratch {
 inline uint8x16_t compare(const uint16_t* p, const uint16_t* q) {
   const uint16x8_t low = vcgtq_u16(vld1q_u16(p), vld1q_u16(q));
   const uint16x8_t high = vcgtq_u16(vld1q_u16(p + 8), vld1q_u16(q + 8));
-  return narrow_flags(low, high);
+  return low_bytes(low, high);
 }
 
 // A byte of eight pairs for the pixels of a tile, kVectors vectors of sixteen at once.

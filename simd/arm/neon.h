@@ -103,8 +103,8 @@ inline uint32_t sum16(uint16x8_t a) {
 #endif
 }
 
-// Flags of all ones or zeros to bytes, those of a in the lower half.
-inline uint8x16_t narrow_flags(uint16x8_t a, uint16x8_t b) {
+// The lower byte of each lane, those of a in the lower half.
+inline uint8x16_t low_bytes(uint16x8_t a, uint16x8_t b) {
 #if defined(__aarch64__)
   return vuzp1q_u8(vreinterpretq_u8_u16(a), vreinterpretq_u8_u16(b));
 #else

@@ -14,7 +14,7 @@ constexpr int32_t kAtOnce = 8;  // at once
 
 // Where the first of sixteen sums lies that equals the value; below 0: none does.
 inline int32_t find(uint16x8_t low, uint16x8_t high, uint16x8_t value) {
-  const uint8x16_t equal = narrow_flags(vceqq_u16(low, value), vceqq_u16(high, value));
+  const uint8x16_t equal = low_bytes(vceqq_u16(low, value), vceqq_u16(high, value));
   const uint64_t nibbles = flag_nibbles(equal);
   return nibbles == 0 ? -1 : static_cast<int32_t>(__builtin_ctzll(nibbles)) / 4;
 }
