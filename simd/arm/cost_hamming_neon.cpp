@@ -92,7 +92,8 @@ struct Row {
     }
   }
 
-  // The same where only some of the eight lie in the row, from `first` on: others are looked at and moved to their lanes.
+  // The same where not all, but some of the eight lie in the row, from `first` on: others are looked at and moved to their
+  // lanes.
   uint16x8_t partial_costs(const uint8_t* own, const uint8_t* mask, int32_t first) const {
     uint16_t costs[3 * kAtOnce];
     for (uint16_t& cost : costs) cost = kNoCost;
@@ -100,7 +101,6 @@ struct Row {
     if (args.width >= kAtOnce) {
       const int32_t start = first < 0 ? 0 : first > args.width - kAtOnce ? args.width - kAtOnce : first;
       const int32_t moved = kLeft ? start - first : first - start;
-      if (moved <= -kAtOnce || moved >= kAtOnce) return vdupq_n_u16(kNoCost);
       vst1q_u16(middle, eight_costs(own, mask, args.other + start * bytes));
       return vld1q_u16(middle + moved);
     }
@@ -127,24 +127,42 @@ struct Row {
     for (; cost < end; cost += kAtOnce) vst1q_u16(cost, vdupq_n_u16(kNoCost));
   }
 
-  // A pixel whose vectors' others lie in the row, all of them.
-  inline void cost_inside(int32_t x, const uint8_t* mask) const {
+  // Costs of `count` vectors of levels of a pixel whose others lie in the row, those of the first from `other` on.
+  inline void cost_vectors(const uint8_t* own, const uint8_t* mask, const uint8_t* other, int32_t count,
+                           uint16_t* cost) const {
     constexpr int32_t kAdvance = kLeft ? -kAtOnce : kAtOnce;
-    const uint8_t* own = args.own + x * bytes;
-    const uint8_t* other = args.other + first_other(x) * bytes;
-    uint16_t* cost = args.cost + ptrdiff_t{x} * args.stride;
-    uint16_t* const end = cost + args.stride;
-    const uint16_t* const last = cost + args.num_disparities;
     if constexpr (kBytes != 0) {  // the pixel's own bits stay in registers
-      const Own<kBytes / 16> bits = load_own<kBytes / 16>(own, mask);
+      constexpr int32_t kVectors = kBytes / 16;
+      constexpr ptrdiff_t kStride = kLeft ? -kBytes : kBytes;
+      const Own<kVectors> bits = load_own<kVectors>(own, mask);
       if (kLeft) other += (kAtOnce - 1) * kBytes;
-      for (; cost < last; cost += kAtOnce, other += kAdvance * kBytes) {
-        vst1q_u16(cost, count<kBytes / 16>(bits, other, kLeft ? -kBytes : kBytes));
+      for (; count >= 2; count -= 2, cost += 2 * kAtOnce, other += 2 * kAdvance * kBytes) {
+        const uint16x8_t first = bsm::count<kVectors>(bits, other, kStride);
+        const uint16x8_t second = bsm::count<kVectors>(bits, other + kAdvance * kBytes, kStride);
+        vst1q_u16(cost, first);
+        vst1q_u16(cost + kAtOnce, second);
       }
+      if (count != 0) vst1q_u16(cost, bsm::count<kVectors>(bits, other, kStride));
     } else {
-      for (; cost < last; cost += kAtOnce, other += kAdvance * bytes) vst1q_u16(cost, eight_costs(own, mask, other));
+      for (; count != 0; --count, cost += kAtOnce, other += kAdvance * bytes) vst1q_u16(cost, eight_costs(own, mask, other));
     }
-    end_pixel(cost, end);
+  }
+
+  // Pixels begin..end-1, all of whose vectors' others lie in the row; masks lie mask_bytes apart.
+  void cost_inside(int32_t begin, int32_t end, const uint8_t* masks, ptrdiff_t mask_bytes) const {
+    const ptrdiff_t stride = args.stride;
+    const int32_t count = (args.num_disparities + kAtOnce - 1) / kAtOnce;
+    const uint8_t* own = args.own + begin * bytes;
+    const uint8_t* mask = masks + begin * mask_bytes;
+    const uint8_t* other = args.other + first_other(begin) * bytes;
+    uint16_t* cost = args.cost + begin * stride;
+    for (int32_t left = end - begin; left > 0; --left, cost += stride) {
+      cost_vectors(own, mask, other, count, cost);
+      end_pixel(cost + count * kAtOnce, cost + stride);
+      own += bytes;
+      mask += mask_bytes;
+      other += bytes;
+    }
   }
 
   // Any pixel.
@@ -153,10 +171,23 @@ struct Row {
     const uint8_t* own = args.own + x * bytes;
     uint16_t* cost = args.cost + ptrdiff_t{x} * args.stride;
     uint16_t* const end = cost + args.stride;
-    const uint16_t* const last = cost + args.num_disparities;
-    for (int32_t first = first_other(x); cost < last; cost += kAtOnce, first += kAdvance) {
+    int32_t left = (args.num_disparities + kAtOnce - 1) / kAtOnce;
+    int32_t first = first_other(x);
+    while (left > 0) {
+      // The vectors from here on whose others lie in the row.
+      const int32_t room = kLeft ? first : args.width - kAtOnce - first;
       const bool inside = first >= 0 && first <= args.width - kAtOnce;
-      vst1q_u16(cost, inside ? eight_costs(own, mask, args.other + first * bytes) : partial_costs(own, mask, first));
+      const int32_t fit = inside ? room / kAtOnce + 1 : 0;
+      const int32_t count = fit == 0 ? 1 : fit < left ? fit : left;
+      if (inside) {
+        cost_vectors(own, mask, args.other + first * bytes, count, cost);
+      } else {
+        const bool outside = first <= -kAtOnce || first >= args.width;
+        vst1q_u16(cost, outside ? vdupq_n_u16(kNoCost) : partial_costs(own, mask, first));
+      }
+      cost += count * kAtOnce;
+      first += count * kAdvance;
+      left -= count;
     }
     end_pixel(cost, end);
   }
@@ -165,12 +196,13 @@ struct Row {
   void cost_pixels(const uint8_t* masks, ptrdiff_t mask_bytes) const {
     // From the first pixel whose first vector and last vector lie inside to the last one.
     const int32_t span = (args.num_disparities - 1) / kAtOnce * kAtOnce;
-    const int32_t begin = (kLeft ? span : 0) - first_other(0);
-    const int32_t end = args.width - kAtOnce - (kLeft ? 0 : span) - first_other(0) + 1;
-    int32_t x = 0;
-    for (; x < args.width && x < begin; ++x) cost_pixel(x, masks + x * mask_bytes);
-    for (; x < args.width && x < end; ++x) cost_inside(x, masks + x * mask_bytes);
-    for (; x < args.width; ++x) cost_pixel(x, masks + x * mask_bytes);
+    const int32_t first = (kLeft ? span : 0) - first_other(0);
+    const int32_t last = args.width - kAtOnce - (kLeft ? 0 : span) - first_other(0);
+    const int32_t begin = first < 0 ? 0 : first < args.width ? first : args.width;
+    const int32_t end = last < begin ? begin : last < args.width ? last + 1 : args.width;
+    for (int32_t x = 0; x < begin; ++x) cost_pixel(x, masks + x * mask_bytes);
+    cost_inside(begin, end, masks, mask_bytes);
+    for (int32_t x = end; x < args.width; ++x) cost_pixel(x, masks + x * mask_bytes);
   }
 };
 
