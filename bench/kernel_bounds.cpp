@@ -138,9 +138,9 @@ double bound_cycles(const Core& core, const MatchHammingArgs& args) {
   return cycles(core, count * (words / 2 * Effort{1 + 2 * 3, 2, 0, 0} + 0.25 * winners));
 }
 
-// The same under one view's mask, every cost written. Of 32 (AVX-512) or 16 (AVX2) candidates: 8 vectors of counts are
-// packed to one by 7 moves and added in pairs by 1; 128 bits need one such group of 32 (two of 8 each for AVX2) and 1 (2)
-// moves to put candidates in order, 256 bits twice that and 2 more.
+// The same under one view's mask, every cost written. AVX-512: a lane for each of eight candidates, whose sums one move puts
+// into 16 bits and in order. AVX2: of 16 candidates, 8 vectors of counts are packed to one by 7 moves and added in pairs by
+// 1; 128 bits need two such groups of 8 and 2 moves to put candidates in order, 256 bits twice that and 2 more.
 double bound_cycles(const Core& core, const CostHammingArgs& args) {
   const double count = candidates(args.width, args.num_disparities);
   const double words = args.bits / 64.0;
@@ -150,12 +150,7 @@ double bound_cycles(const Core& core, const CostHammingArgs& args) {
   if (is(core, "sse42")) return cycles(scalar, count * (words * Effort{4, loads, 0, 1} + Effort{1, 0, 1, 0}));
   const double vectors = 8.0 * args.bits / core.bytes / 64.0;  // of a candidate
   const double per_store = lanes(core, 2);
-  if (is(core, "avx512")) {
-    const Effort counted = {2.0 + (args.bits < 512 ? 0 : 1), 1, 0, 1};
-    const double groups = std::max(1.0, std::min(args.bits / 128.0, 4.0));
-    const Effort packed = {8 * groups + 2 * (groups - 1) + 1, 0, 1, 7 * groups + (groups - 1) + 1};
-    return cycles(core, count / per_store * (per_store * vectors * counted + packed));
-  }
+  if (is(core, "avx512")) return cycles(core, count / 8 * (words * Effort{3, 2, 0, 1} + Effort{1 - 1, 0, 1, 1}));
   if (is(core, "avx2")) {
     if (args.bits != 128 && args.bits != 256)
       return cycles(scalar, count * (words * Effort{4, loads, 0, 1} + Effort{1, 0, 1, 0}));

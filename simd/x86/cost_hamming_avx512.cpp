@@ -1,228 +1,157 @@
-// cost_hamming, AVX-512 BW, VPOPCNTDQ: 32 candidates at once, neighbours in the other view's row.
-// One three-operand operation XORs and masks; counts of 64-bit words are packed to bytes and added in pairs. Bound, per 32
-// candidates of 128 bits: 8 loads, 8 logic, 8 population counts, 9 to add up and order.
+// cost_hamming, AVX-512 F, BW, VL, VPOPCNTDQ: eight pixels of the other view against own pixels one after the other.
+// The eight pixels' words lie apart by number, in registers or in the first-level cache, as in match_hamming: counts add up
+// without a move between lanes, and no load crosses a cache line.
+// Bound for eight candidates: by word of a descriptor 1 logic, 1 population count, 1 addition, the first of which is none;
+// then 1 move of all sums to 16 bits in the order of levels. Two ports do them, one of which alone counts and moves: 6
+// cycles for 256 bits, 3 for 128. A block meets D + 7 own pixels for D levels: 7 in D + 7 lanes are idle.
 #include "platform/compiler.h"
 
 #if BSM_ARCH_X86_64
 #include <immintrin.h>
 
 #include "simd/kernels.h"
+#include "simd/x86/hamming_avx512.h"
 
 namespace bsm {
 namespace {
 
-constexpr int32_t kLanes = 32;  // candidates at once
+constexpr int32_t kPixels = 8;        // of a block: lanes
+constexpr int32_t kCostsAtOnce = 32;  // of a register
 
-// Bits begin..end-1 of 64.
-inline uint64_t range(int32_t begin, int32_t end) {
-  begin = begin < 0 ? 0 : begin;
-  end = end > 64 ? 64 : end;
-  return begin < end ? ~uint64_t{0} >> (64 - (end - begin)) << begin : 0;
-}
+// Where a block's costs belong: in order, those of own pixel x are levels base + step * x and the next seven.
+struct Meeting {
+  int32_t base, step;
+  __mmask8 inside;  // which of them are of pixels within the row
+  int32_t num_disparities;
+  __m512i order;  // of the lanes, by their lowest 16 bits
 
-// The pixel whose costs are counted: descriptor and mask, repeated over a register where they are shorter.
-struct Own {
-  __m512i bits, mask;
-  const uint8_t* descriptor;
-  const uint8_t* kept;  // nullptr: all bits
-};
-
-// Candidates of the other view in the order of memory; those outside begin..end-1 are not in the row.
-struct Candidates {
-  const uint8_t* first;
-  int32_t begin, end;
-};
-
-template <int32_t kWords>
-inline __m512i repeat(const uint8_t* from) {
-  if constexpr (kWords == 1) {
-    return _mm512_broadcastq_epi64(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from)));
-  } else if constexpr (kWords == 2) {
-    return _mm512_broadcast_i64x2(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from)));
-  } else if constexpr (kWords == 4) {
-    return _mm512_broadcast_i64x4(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
-  } else {
-    return _mm512_setzero_si512();
+  int32_t level(int32_t x) const { return base + step * x; }
+  __m128i levels(int32_t x) const {
+    return _mm_add_epi16(_mm_set1_epi16(static_cast<int16_t>(level(x))), _mm_setr_epi16(0, 1, 2, 3, 4, 5, 6, 7));
   }
+  // Which levels are candidates; one below 0 is a large number.
+  __mmask8 candidates(__m128i levels) const {
+    return _mm_mask_cmplt_epu16_mask(inside, levels, _mm_set1_epi16(static_cast<int16_t>(num_disparities)));
+  }
+};
+
+// Of the block's pixels first .. first + pixels - 1, within the row.
+inline Meeting meet(const CostHammingArgs& args, int32_t first, int32_t pixels) {
+  const uint32_t inside = (1u << pixels) - 1;
+  if (args.view == 0) {  // the last pixel has the lowest level
+    return Meeting{-args.min_disparity - first - (kPixels - 1), 1, static_cast<__mmask8>(inside << (kPixels - pixels)),
+                   args.num_disparities, _mm512_castsi128_si512(_mm_setr_epi16(28, 24, 20, 16, 12, 8, 4, 0))};
+  }
+  return Meeting{first - args.min_disparity, -1, static_cast<__mmask8>(inside), args.num_disparities,
+                 _mm512_castsi128_si512(_mm_setr_epi16(0, 4, 8, 12, 16, 20, 24, 28))};
 }
 
-// Set bits of (other ^ own) & mask, by 64-bit word. The first operand is overwritten: the one that is not needed again.
-inline __m512i count(__m512i other, __m512i own, __m512i mask) {
-  return _mm512_popcnt_epi64(_mm512_ternarylogic_epi64(other, own, mask, 0x28));
-}
-
-// Counts of register `i` of the candidates, by word.
-template <int32_t kWords, bool kWhole>
-inline __m512i count_register(const Own& own, const Candidates& other, int32_t i) {
-  const uint8_t* from = other.first + ptrdiff_t{i} * 64;
-  if (kWhole) return count(_mm512_loadu_si512(from), own.bits, own.mask);
-  const __mmask8 inside = static_cast<__mmask8>(range(kWords * other.begin - 8 * i, kWords * other.end - 8 * i));
-  return count(_mm512_maskz_loadu_epi64(inside, from), own.bits, own.mask);
-}
-
-// Four registers of counts to one: lane l holds words 2 l and 2 l + 1 of the first, then of the second, .., in 16 bits.
-inline __m512i pack_four(__m512i a, __m512i b, __m512i c, __m512i d) {
-  return _mm512_packus_epi32(_mm512_packus_epi32(a, b), _mm512_packus_epi32(c, d));
-}
-
-// Eight registers of counts, each at most 64, to one: lane l holds the sums of words 2 l and 2 l + 1 of each.
-template <int32_t kWords, bool kWhole>
-inline __m512i count_eight(const Own& own, const Candidates& other, int32_t first) {
-  const auto four = [&](int32_t i) {
-    return pack_four(count_register<kWords, kWhole>(own, other, i), count_register<kWords, kWhole>(own, other, i + 1),
-                     count_register<kWords, kWhole>(own, other, i + 2), count_register<kWords, kWhole>(own, other, i + 3));
-  };
-  return _mm512_maddubs_epi16(_mm512_packus_epi16(four(first), four(first + 4)), _mm512_set1_epi8(1));
-}
-
-// Eight candidates from `first` on, of any number of words: each lane of 128 bits holds a part of their eight sums.
-template <bool kWhole>
-inline __m512i count_long(const Own& own, const Candidates& other, int32_t words, int32_t first) {
-  __m512i counts[8];
+// Costs of kCount own pixels. kWhole: all lanes are candidates.
+template <int32_t kCount, bool kWhole, bool kMasked, int32_t kWords>
+BSM_INLINE void count_some(const Block<kWords>& block, View own, ptrdiff_t bytes, uint16_t* costs, ptrdiff_t step,
+                           const Meeting& meeting, __m128i& levels) {
+  __m512i sums[kCount];
   BSM_UNROLL
-  for (int32_t i = 0; i < 8; ++i) counts[i] = _mm512_setzero_si512();
-  const ptrdiff_t bytes = ptrdiff_t{words} * 8;
-  const uint8_t* from = other.first + first * bytes;
-  for (int32_t word = 0; word < words; word += 8) {
-    const __mmask8 valid = static_cast<__mmask8>(words - word < 8 ? (1u << (words - word)) - 1 : 0xffu);
-    const ptrdiff_t at = ptrdiff_t{word} * 8;
-    const __m512i bits = _mm512_maskz_loadu_epi64(valid, own.descriptor + at);
-    const __m512i mask = own.kept == nullptr ? _mm512_set1_epi32(-1) : _mm512_maskz_loadu_epi64(valid, own.kept + at);
+  for (int32_t k = 0; k < kCount; ++k) sums[k] = _mm512_setzero_si512();
+  block.for_each_word(bytes, [&](ptrdiff_t at) {
+    const __m512i other = block.word(at);
     BSM_UNROLL
-    for (int32_t i = 0; i < 8; ++i) {
-      const bool inside = kWhole || (other.begin <= first + i && first + i < other.end);
-      const __m512i candidate = _mm512_maskz_loadu_epi64(inside ? valid : __mmask8{0}, from + i * bytes + at);
-      counts[i] = _mm512_add_epi64(counts[i], count(candidate, bits, mask));
+    for (int32_t k = 0; k < kCount; ++k) {
+      const __m512i mask = kMasked ? every_word(own.masks + k * bytes + at) : _mm512_set1_epi32(-1);
+      sums[k] = _mm512_add_epi64(sums[k], count(every_word(own.descriptors + k * bytes + at), other, mask));
+    }
+  });
+  BSM_UNROLL
+  for (int32_t k = 0; k < kCount; ++k, costs += step) {
+    const __m128i cost = _mm512_castsi512_si128(_mm512_permutexvar_epi16(meeting.order, sums[k]));
+    if (kWhole) {
+      _mm_storeu_si128(reinterpret_cast<__m128i*>(costs), cost);
+    } else {
+      _mm_mask_storeu_epi16(costs, meeting.candidates(levels), cost);
+      levels = _mm_add_epi16(levels, _mm_set1_epi16(static_cast<int16_t>(meeting.step)));
     }
   }
-  const __m512i ones = _mm512_set1_epi16(1);
-  return _mm512_packus_epi32(_mm512_madd_epi16(pack_four(counts[0], counts[1], counts[2], counts[3]), ones),
-                             _mm512_madd_epi16(pack_four(counts[4], counts[5], counts[6], counts[7]), ones));
 }
 
-// Where candidate k of count_candidates lies.
-template <int32_t kWords>
-constexpr int32_t lane_of(int32_t k) {
-  return kWords == 1   ? 8 * (k % 8 / 2) + 2 * (k / 8) + k % 2
-         : kWords == 2 ? 8 * (k % 4) + k / 4
-         : kWords == 4 ? 8 * (2 * (k / 16) + k % 2) + k / 2 % 8
-                       : k;
+// Own pixels begin .. end - 1.
+template <bool kWhole, bool kMasked, int32_t kWords>
+inline void count_pixels(Block<kWords> block, const CostHammingArgs& args, const Meeting& meeting, int32_t begin,
+                         int32_t end) {
+  constexpr int32_t kAtOnce = Block<kWords>::kAtOnce;
+  const ptrdiff_t bytes = kWords == 0 ? args.bits / 8 : 8 * kWords;
+  const ptrdiff_t step = args.stride + meeting.step;
+  View own = View{args.own, args.own_mask}.from(begin * bytes);
+  uint16_t* costs = args.cost + ptrdiff_t{begin} * args.stride + meeting.level(begin);
+  __m128i levels = meeting.levels(begin);
+  int32_t x = begin;
+  for (; x + kAtOnce <= end; x += kAtOnce, own = own.from(kAtOnce * bytes), costs += kAtOnce * step) {
+    count_some<kAtOnce, kWhole, kMasked>(block, own, bytes, costs, step, meeting, levels);
+  }
+  if constexpr (kAtOnce > 1) {
+    for (; x < end; ++x, own = own.from(bytes), costs += step) {
+      count_some<1, kWhole, kMasked>(block, own, bytes, costs, step, meeting, levels);
+    }
+  }
 }
 
-// Costs of 32 candidates; kWords: 64-bit words of a descriptor, 0 for any number.
-template <int32_t kWords, bool kWhole>
-inline __m512i count_candidates(const Own& own, const Candidates& other, int32_t words) {
-  if constexpr (kWords == 1) {
-    return pack_four(count_register<1, kWhole>(own, other, 0), count_register<1, kWhole>(own, other, 1),
-                     count_register<1, kWhole>(own, other, 2), count_register<1, kWhole>(own, other, 3));
-  } else if constexpr (kWords == 2) {
-    return count_eight<2, kWhole>(own, other, 0);
-  } else if constexpr (kWords == 4) {
-    const __m512i a = count_eight<4, kWhole>(own, other, 0);
-    const __m512i b = count_eight<4, kWhole>(own, other, 8);
-    return _mm512_add_epi16(_mm512_shuffle_i64x2(a, b, 0x88), _mm512_shuffle_i64x2(a, b, 0xdd));
+// Sets costs of pixel x to none where no block writes them, and more.
+BSM_NOINLINE void clear_all(uint16_t* costs, int32_t begin, int32_t end) {
+  for (int32_t level = begin; level < end; level += kCostsAtOnce) _mm512_storeu_si512(costs + level, _mm512_set1_epi32(-1));
+}
+inline void clear(const CostHammingArgs& args, int32_t x) {
+  uint16_t* costs = args.cost + ptrdiff_t{x} * args.stride;
+  const int32_t least = args.view == 0 ? x - args.min_disparity - args.num_disparities + 1 : x + args.min_disparity;
+  if (least < 0 || least + args.num_disparities > args.width) {
+    clear_all(costs, 0, args.stride);
+  } else if (args.num_disparities < args.stride - kCostsAtOnce) {
+    clear_all(costs, args.num_disparities / kCostsAtOnce * kCostsAtOnce, args.stride);
   } else {
-    const auto sixteen = [&](int32_t first) {
-      const __m512i a = count_long<kWhole>(own, other, words, first);
-      const __m512i b = count_long<kWhole>(own, other, words, first + 8);
-      return _mm512_add_epi16(_mm512_shuffle_i64x2(a, b, 0x44), _mm512_shuffle_i64x2(a, b, 0xee));
-    };
-    const __m512i a = sixteen(0);
-    const __m512i b = sixteen(16);
-    return _mm512_add_epi16(_mm512_shuffle_i64x2(a, b, 0x88), _mm512_shuffle_i64x2(a, b, 0xdd));
+    _mm512_storeu_si512(costs + args.stride - kCostsAtOnce, _mm512_set1_epi32(-1));
   }
 }
 
-// Lanes of count_candidates in the order of levels: descending positions for the left view, ascending for the right.
-template <int32_t kWords>
-struct LevelOrder {
-  alignas(64) uint16_t lane[2][kLanes];
-
-  constexpr LevelOrder() : lane() {
-    for (int32_t k = 0; k < kLanes; ++k) {
-      lane[0][k] = static_cast<uint16_t>(lane_of<kWords>(kLanes - 1 - k));
-      lane[1][k] = static_cast<uint16_t>(lane_of<kWords>(k));
-    }
+template <bool kMasked, int32_t kWords>
+BSM_NOINLINE void count_row(const CostHammingArgs& row) {
+  const CostHammingArgs args = row;  // a copy, which the costs written cannot change
+  const ptrdiff_t bytes = args.bits / 8;
+  const auto within = [&](int32_t x) { return x < 0 ? 0 : x < args.width ? x : args.width; };
+  int32_t cleared = 0;
+  for (int32_t first = 0; first < args.width; first += kPixels) {
+    const int32_t pixels = args.width - first < kPixels ? args.width - first : kPixels;
+    const Block<kWords> block(args.other + first * bytes, pixels, bytes, static_cast<__m512i*>(args.scratch));
+    const Meeting meeting = meet(args, first, pixels);
+    // Own pixels begin .. end - 1 have levels in range, those from all_begin to all_end - 1 eight of them.
+    const int32_t least = meeting.step > 0 ? -meeting.base - (kPixels - 1) : meeting.base - args.num_disparities + 1;
+    const int32_t begin = within(least);
+    const int32_t end = within(least + args.num_disparities + kPixels - 1);
+    int32_t all_begin = within(least + kPixels - 1);
+    int32_t all_end = within(least + args.num_disparities);
+    if (pixels < kPixels || all_begin >= all_end) all_begin = all_end = end;
+    for (; cleared < end; ++cleared) clear(args, cleared);
+    count_pixels<false, kMasked>(block, args, meeting, begin, all_begin);
+    count_pixels<true, kMasked>(block, args, meeting, all_begin, all_end);
+    count_pixels<false, kMasked>(block, args, meeting, all_end, end);
   }
-};
-
-template <int32_t kWords>
-constexpr LevelOrder<kWords> kLevelOrder{};
-
-// What stays the same for all pixels of a row.
-struct Row {
-  const uint8_t* other;
-  ptrdiff_t bytes;  // of a descriptor
-  int32_t words;
-  int32_t width;
-  bool descending;
-};
-
-// Costs of 32 levels, not all of them candidates: `first` is the leftmost pixel of the other view.
-template <int32_t kWords>
-BSM_NOINLINE __m512i count_partly(const Row& row, const Own& own, __m512i order, int32_t first, __mmask32 levels) {
-  const __m512i none = _mm512_set1_epi32(-1);
-  const int32_t begin = first < 0 ? -first : 0;
-  const int32_t end = row.width - first < kLanes ? row.width - first : kLanes;
-  if (begin >= end) return none;
-  const Candidates other{row.other + first * row.bytes, begin, end};
-  const uint64_t inside = row.descending ? range(kLanes - end, kLanes - begin) : range(begin, end);
-  const __m512i counts = count_candidates<kWords, false>(own, other, row.words);
-  return _mm512_mask_permutexvar_epi16(none, static_cast<__mmask32>(inside & levels), order, counts);
-}
-
-template <int32_t kWords>
-BSM_NOINLINE void count_row(const CostHammingArgs& args) {
-  const Row row{args.other, args.bits / 8, args.bits / 64, args.width, args.view == 0};
-  const uint8_t* own_bits = args.own;
-  const uint8_t* own_mask = args.own_mask;
-  uint16_t* costs = args.cost;
-  const int32_t stride = args.stride;
-  const int32_t num_disparities = args.num_disparities;
-  const int32_t min_disparity = args.min_disparity;
-  const __m512i order = _mm512_load_si512(kLevelOrder<kWords>.lane[args.view]);
-  const __m512i none = _mm512_set1_epi32(-1);
-  for (int32_t x = 0; x < row.width; ++x, costs += stride) {
-    Own own{repeat<kWords>(own_bits), none, own_bits, own_mask};
-    own_bits += row.bytes;
-    if (own_mask != nullptr) {
-      own.mask = repeat<kWords>(own_mask);
-      own_mask += row.bytes;
-    }
-    for (int32_t level = 0; level < stride; level += kLanes) {
-      const int32_t disparity = min_disparity + level;
-      const int32_t first = row.descending ? x - disparity - (kLanes - 1) : x + disparity;
-      const int32_t count = num_disparities - level;
-      const __mmask32 levels = count >= kLanes ? ~__mmask32{0} : static_cast<__mmask32>(range(0, count));
-      __m512i cost;
-      if (0 <= first && first <= row.width - kLanes) {
-        const Candidates other{row.other + first * row.bytes, 0, kLanes};
-        const __m512i counts = count_candidates<kWords, true>(own, other, row.words);
-        cost = _mm512_mask_permutexvar_epi16(none, levels, order, counts);
-      } else {
-        cost = count_partly<kWords>(row, own, order, first, levels);
-      }
-      _mm512_storeu_si512(costs + level, cost);
-    }
-  }
+  for (; cleared < args.width; ++cleared) clear(args, cleared);
 }
 
 }  // namespace
 
-uint64_t cost_hamming_avx512_scratch(const KernelShape&) {
-  return 0;
+uint64_t cost_hamming_avx512_scratch(const KernelShape& shape) {
+  return sizeof(__m512i) * static_cast<uint64_t>(whole_words(shape.bits / 8));
 }
 
 void cost_hamming_avx512(const CostHammingArgs& args) {
+  if (args.own_mask == nullptr) return count_row<false, 0>(args);  // for studies: any length alike
   switch (args.bits / 64) {
     case 1:
-      return count_row<1>(args);
+      return count_row<true, 1>(args);
     case 2:
-      return count_row<2>(args);
+      return count_row<true, 2>(args);
     case 4:
-      return count_row<4>(args);
+      return count_row<true, 4>(args);
     default:
-      return count_row<0>(args);
+      return count_row<true, 0>(args);
   }
 }
 

@@ -12,6 +12,14 @@
 namespace bsm {
 namespace {
 
+// Descriptors and masks of neighbours in a row.
+struct View {
+  const uint8_t* descriptors;
+  const uint8_t* masks;
+
+  View from(ptrdiff_t bytes) const { return View{descriptors + bytes, masks == nullptr ? nullptr : masks + bytes}; }
+};
+
 // Set bits of (other ^ own) & mask, by 64-bit word. The first operand is overwritten: the one that is not needed again.
 inline __m512i count(__m512i other, __m512i own, __m512i mask) {
   return _mm512_popcnt_epi64(_mm512_ternarylogic_epi64(other, own, mask, 0x28));
@@ -40,32 +48,62 @@ inline void split_words(const __m512i (&from)[kWords], __m512i* to, int32_t step
   }
 }
 
-// Eight descriptors of kWords words, a power of two: register i gets their words of number i.
-template <int32_t kWords>
-inline void split_eight(const uint8_t* descriptors, __m512i (&words)[kWords]) {
-  __m512i from[kWords];
-  BSM_UNROLL
-  for (int32_t i = 0; i < kWords; ++i) from[i] = _mm512_loadu_si512(descriptors + 64 * i);
-  split_words<kWords>(from, words, 1);
+// The first of eight words, as many as there are.
+inline __mmask8 first_words(ptrdiff_t count) {
+  return static_cast<__mmask8>(count >= 8 ? 0xffu : count > 0 ? (1u << count) - 1 : 0u);
 }
 
-// Words of a descriptor, rounded up to what split_long writes.
+// Words of a descriptor, rounded up to what a block of long ones takes.
 inline ptrdiff_t whole_words(ptrdiff_t bytes) {
   return (bytes + 63) / 64 * 8;
 }
 
-// The same for eight descriptors of any length, eight words at a time.
-inline void split_long(const uint8_t* descriptors, ptrdiff_t bytes, __m512i* words) {
-  for (ptrdiff_t at = 0; at < bytes; at += 64, words += 8) {
-    const __mmask8 valid = static_cast<__mmask8>(bytes - at < 64 ? (1u << ((bytes - at) / 8)) - 1 : 0xffu);
-    __m512i from[8], to[8];
+// Eight neighbours' descriptors of kWords words, a power of two, in registers; those from `pixels` on are zero.
+template <int32_t kWords>
+struct Block {
+  static constexpr int32_t kAtOnce = 1;  // pixels that meet the block together
+  __m512i words[kWords];
+
+  Block(const uint8_t* descriptors, int32_t pixels, ptrdiff_t, __m512i*) {
+    __m512i from[kWords];
     BSM_UNROLL
-    for (int32_t i = 0; i < 8; ++i) from[i] = _mm512_maskz_loadu_epi64(valid, descriptors + i * bytes + at);
-    split_words<8>(from, to, 1);
-    BSM_UNROLL
-    for (int32_t i = 0; i < 8; ++i) _mm512_store_si512(words + i, to[i]);
+    for (int32_t i = 0; i < kWords; ++i) {
+      from[i] = _mm512_maskz_loadu_epi64(first_words(ptrdiff_t{pixels} * kWords - 8 * i), descriptors + 64 * i);
+    }
+    split_words<kWords>(from, words, 1);
   }
-}
+  // The eight words that begin with byte `at` of their descriptors.
+  __m512i word(ptrdiff_t at) const { return words[at / 8]; }
+  template <class Visit>
+  static BSM_INLINE void for_each_word(ptrdiff_t, const Visit& visit) {
+    BSM_UNROLL
+    for (int32_t i = 0; i < kWords; ++i) visit(ptrdiff_t{8} * i);
+  }
+};
+
+// The same for any number of words, whole_words of them in memory.
+template <>
+struct Block<0> {
+  static constexpr int32_t kAtOnce = 4;
+  __m512i* words;
+
+  Block(const uint8_t* descriptors, int32_t pixels, ptrdiff_t bytes, __m512i* memory) : words(memory) {
+    for (ptrdiff_t at = 0; at < bytes; at += 64) {
+      const __mmask8 valid = first_words((bytes - at) / 8);
+      __m512i from[8];
+      BSM_UNROLL
+      for (int32_t i = 0; i < 8; ++i) {
+        from[i] = _mm512_maskz_loadu_epi64(i < pixels ? valid : __mmask8{0}, descriptors + i * bytes + at);
+      }
+      split_words<8>(from, memory + at / 8, 1);
+    }
+  }
+  __m512i word(ptrdiff_t at) const { return _mm512_load_si512(words + at / 8); }
+  template <class Visit>
+  static BSM_INLINE void for_each_word(ptrdiff_t bytes, const Visit& visit) {
+    for (ptrdiff_t at = 0; at < bytes; at += 8) visit(at);
+  }
+};
 
 }  // namespace
 }  // namespace bsm

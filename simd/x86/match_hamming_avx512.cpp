@@ -21,74 +21,6 @@ namespace {
 
 constexpr int32_t kPixels = 8;  // of a block: lanes
 
-// Descriptors and masks of neighbours in a row.
-struct View {
-  const uint8_t* descriptors;
-  const uint8_t* masks;
-
-  View from(ptrdiff_t bytes) const { return View{descriptors + bytes, masks == nullptr ? nullptr : masks + bytes}; }
-};
-
-// Sums of the lanes of a block against one left pixel, under the masks of each view.
-struct Costs {
-  __m512i left, right;
-};
-
-template <bool kMasked>
-BSM_INLINE void add(Costs& costs, __m512i own, const uint8_t* own_mask, __m512i other, __m512i other_mask) {
-  if (kMasked) {
-    costs.left = _mm512_add_epi64(costs.left, count(own, other, every_word(own_mask)));
-    costs.right = _mm512_add_epi64(costs.right, count(own, other, other_mask));
-  } else {
-    costs.left = costs.right = _mm512_add_epi64(costs.left, _mm512_popcnt_epi64(_mm512_xor_si512(own, other)));
-  }
-}
-
-// A block of descriptors of kWords words, a power of two.
-template <bool kMasked, int32_t kWords>
-struct ShortBlock {
-  static constexpr int32_t kAtOnce = 1;
-  __m512i words[kWords], masks[kWords];
-
-  ShortBlock(View right, ptrdiff_t, __m512i*) {
-    split_eight<kWords>(right.descriptors, words);
-    if (kMasked) split_eight<kWords>(right.masks, masks);
-  }
-
-  BSM_INLINE void compare(View left, ptrdiff_t, Costs (&costs)[1]) const {
-    BSM_UNROLL
-    for (int32_t i = 0; i < kWords; ++i) {
-      add<kMasked>(costs[0], every_word(left.descriptors + 8 * i), left.masks + 8 * i, words[i], masks[i]);
-    }
-  }
-};
-
-// A block of descriptors of any length: words and masks by number in `memory`.
-template <bool kMasked>
-struct LongBlock {
-  static constexpr int32_t kAtOnce = 4;
-  const __m512i* words;
-  const __m512i* masks;
-
-  LongBlock(View right, ptrdiff_t bytes, __m512i* memory) : words(memory), masks(memory + whole_words(bytes)) {
-    split_long(right.descriptors, bytes, memory);
-    if (kMasked) split_long(right.masks, bytes, memory + whole_words(bytes));
-  }
-
-  template <int32_t kCount>
-  BSM_INLINE void compare(View left, ptrdiff_t bytes, Costs (&costs)[kCount]) const {
-    for (ptrdiff_t at = 0; at < bytes; at += 8) {
-      const __m512i other = _mm512_load_si512(words + at / 8);
-      const __m512i other_mask = _mm512_load_si512(masks + at / 8);
-      BSM_UNROLL
-      for (int32_t k = 0; k < kCount; ++k) {
-        add<kMasked>(costs[k], every_word(left.descriptors + k * bytes + at), left.masks + k * bytes + at, other,
-                     other_mask);
-      }
-    }
-  }
-};
-
 // How a block's pixels meet left pixels.
 struct Meeting {
   int32_t left;    // the pixel that meets the first one at level 0
@@ -100,31 +32,50 @@ struct Meeting {
     const __m512i behind = _mm512_setr_epi32(0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7);
     return _mm512_slli_epi32(_mm512_sub_epi32(_mm512_set1_epi32(x - left), behind), kLevelShift);
   }
-  // Pixels that are candidates of left pixel x, which has one.
-  __mmask8 candidates(int32_t x) const {
-    const int32_t last = x - left < pixels - 1 ? x - left : pixels - 1;
-    const int32_t before = x - left - num_disparities + 1;
-    return static_cast<__mmask8>((2u << last) - (before > 0 ? 1u << before : 1u));
+  // Pixels that are candidates at such levels; one below 0 is a large number.
+  __mmask8 candidates(__m512i levels) const {
+    const __m512i end = _mm512_set1_epi64(static_cast<int64_t>(num_disparities) << (32 + kLevelShift));
+    return _mm512_mask_cmplt_epu64_mask(static_cast<__mmask8>((1u << pixels) - 1), levels, end);
   }
 };
 
-// Compares left pixels x .. x + kCount - 1 and returns the block's least keys, `best` so far. A vector of keys holds the
-// left view's in the lower halves of its words, the right view's in the upper. kWhole: all of the block's pixels are
-// candidates.
-template <int32_t kCount, bool kWhole, bool kMasked, class Block>
-BSM_INLINE __m512i compare_some(const Block& block, View left, ptrdiff_t bytes, const Meeting& meeting, int32_t x,
-                                __m512i& levels, __m512i* left_best, __m512i best) {
+// Eight right pixels: their descriptors and masks.
+template <bool kMasked, int32_t kWords>
+struct RightPixels {
+  Block<kWords> words, masks;
+
+  RightPixels(View right, int32_t pixels, ptrdiff_t bytes, __m512i* memory)
+      : words(right.descriptors, pixels, bytes, memory),
+        masks(kMasked ? right.masks : right.descriptors, pixels, bytes, memory + (kMasked ? whole_words(bytes) : 0)) {}
+};
+
+// Compares left pixels x .. x + kCount - 1 and returns the right pixels' least keys, `best` so far. A vector of keys holds
+// the left view's in the lower halves of its words, the right view's in the upper. kWhole: all right pixels are candidates.
+template <int32_t kCount, bool kWhole, bool kMasked, int32_t kWords>
+BSM_INLINE __m512i compare_some(const RightPixels<kMasked, kWords>& right, View left, ptrdiff_t bytes,
+                                const Meeting& meeting, int32_t x, __m512i& levels, __m512i* left_best, __m512i best) {
   const __m512i none = _mm512_set1_epi32(-1);
-  Costs costs[kCount];
+  left = left.from(x * bytes);
+  __m512i left_costs[kCount], right_costs[kCount];
   BSM_UNROLL
-  for (int32_t k = 0; k < kCount; ++k) costs[k].left = costs[k].right = _mm512_setzero_si512();
-  block.compare(left.from(x * bytes), bytes, costs);
+  for (int32_t k = 0; k < kCount; ++k) left_costs[k] = right_costs[k] = _mm512_setzero_si512();
+  Block<kWords>::for_each_word(bytes, [&](ptrdiff_t at) {
+    const __m512i other = right.words.word(at);
+    const __m512i other_mask = right.masks.word(at);
+    BSM_UNROLL
+    for (int32_t k = 0; k < kCount; ++k) {
+      const __m512i own = every_word(left.descriptors + k * bytes + at);
+      const __m512i own_mask = kMasked ? every_word(left.masks + k * bytes + at) : none;
+      left_costs[k] = _mm512_add_epi64(left_costs[k], count(own, other, own_mask));
+      if (kMasked) right_costs[k] = _mm512_add_epi64(right_costs[k], count(own, other, other_mask));
+    }
+  });
   BSM_UNROLL
   for (int32_t k = 0; k < kCount; ++k) {
-    __m512i keys =
-        _mm512_ternarylogic_epi64(_mm512_slli_epi64(costs[k].left, 16), _mm512_slli_epi64(costs[k].right, 48), levels,
-                                  0xfe);  // or
-    if (!kWhole) keys = _mm512_mask_mov_epi64(none, meeting.candidates(x + k), keys);
+    const __m512i right_cost = kMasked ? right_costs[k] : left_costs[k];
+    __m512i keys = _mm512_ternarylogic_epi64(_mm512_slli_epi64(left_costs[k], 16), _mm512_slli_epi64(right_cost, 48), levels,
+                                             0xfe);  // or
+    if (!kWhole) keys = _mm512_mask_mov_epi64(none, meeting.candidates(levels), keys);
     _mm512_store_si512(left_best + x + k, _mm512_min_epu32(_mm512_load_si512(left_best + x + k), keys));
     best = _mm512_min_epu32(best, keys);
     levels = _mm512_add_epi32(levels, _mm512_set1_epi32(1 << kLevelShift));
@@ -133,16 +84,18 @@ BSM_INLINE __m512i compare_some(const Block& block, View left, ptrdiff_t bytes, 
 }
 
 // The same for left pixels begin .. end - 1.
-template <bool kWhole, bool kMasked, class Block>
-inline __m512i compare(Block block, View left, ptrdiff_t bytes, Meeting meeting, int32_t begin, int32_t end,
-                       __m512i* left_best, __m512i best) {
+template <bool kWhole, bool kMasked, int32_t kWords>
+inline __m512i compare(RightPixels<kMasked, kWords> right, View left, ptrdiff_t bytes, Meeting meeting, int32_t begin,
+                       int32_t end, __m512i* left_best, __m512i best) {
+  constexpr int32_t kAtOnce = Block<kWords>::kAtOnce;
+  if (kWords != 0) bytes = 8 * kWords;
   __m512i levels = meeting.levels(begin);
   int32_t x = begin;
-  for (; x + Block::kAtOnce <= end; x += Block::kAtOnce) {
-    best = compare_some<Block::kAtOnce, kWhole, kMasked>(block, left, bytes, meeting, x, levels, left_best, best);
+  for (; x + kAtOnce <= end; x += kAtOnce) {
+    best = compare_some<kAtOnce, kWhole>(right, left, bytes, meeting, x, levels, left_best, best);
   }
-  if constexpr (Block::kAtOnce > 1) {
-    for (; x < end; ++x) best = compare_some<1, kWhole, kMasked>(block, left, bytes, meeting, x, levels, left_best, best);
+  if constexpr (kAtOnce > 1) {
+    for (; x < end; ++x) best = compare_some<1, kWhole>(right, left, bytes, meeting, x, levels, left_best, best);
   }
   return best;
 }
@@ -154,8 +107,8 @@ inline uint32_t least_lower_half(__m512i keys) {
   return static_cast<uint32_t>(_mm_cvtsi128_si32(least));
 }
 
-template <bool kMasked, class Block>
-void match_row(const MatchHammingArgs& row) {
+template <bool kMasked, int32_t kWords>
+BSM_NOINLINE void match_row(const MatchHammingArgs& row) {
   const MatchHammingArgs args = row;  // a copy, which the levels written cannot change
   const ptrdiff_t bytes = args.bits / 8;
   __m512i* left_best = static_cast<__m512i*>(args.scratch);
@@ -172,32 +125,16 @@ void match_row(const MatchHammingArgs& row) {
     int32_t all_begin = within(meeting.left + kPixels - 1);
     int32_t all_end = within(meeting.left + args.num_disparities);
     if (pixels < kPixels || all_begin >= all_end) all_begin = all_end = end;
-    const Block block(right.from(first * bytes), bytes, left_best + args.width);
+    const RightPixels<kMasked, kWords> block(right.from(first * bytes), pixels, bytes, left_best + args.width);
     __m512i best = _mm512_set1_epi32(-1);
-    best = compare<false, kMasked>(block, left, bytes, meeting, begin, all_begin, left_best, best);
-    best = compare<true, kMasked>(block, left, bytes, meeting, all_begin, all_end, left_best, best);
-    best = compare<false, kMasked>(block, left, bytes, meeting, all_end, end, left_best, best);
+    best = compare<false>(block, left, bytes, meeting, begin, all_begin, left_best, best);
+    best = compare<true>(block, left, bytes, meeting, all_begin, all_end, left_best, best);
+    best = compare<false>(block, left, bytes, meeting, all_end, end, left_best, best);
     _mm_mask_storeu_epi16(args.right_level + first, static_cast<__mmask8>((1u << pixels) - 1),
                           _mm512_cvtepi64_epi16(_mm512_srli_epi64(best, 32)));
   }
   // A key's lower half is its level, and kNoLevel without candidates.
   for (int32_t x = 0; x < args.width; ++x) args.left_level[x] = static_cast<uint16_t>(least_lower_half(left_best[x]));
-}
-
-template <bool kMasked>
-void match(const MatchHammingArgs& args) {
-  switch (args.bits / 64) {
-    case 1:
-      return match_row<kMasked, ShortBlock<kMasked, 1>>(args);
-    case 2:
-      return match_row<kMasked, ShortBlock<kMasked, 2>>(args);
-    case 4:
-      return match_row<kMasked, ShortBlock<kMasked, 4>>(args);
-    case 8:
-      return match_row<kMasked, ShortBlock<kMasked, 8>>(args);
-    default:
-      return match_row<kMasked, LongBlock<kMasked>>(args);
-  }
 }
 
 }  // namespace
@@ -207,10 +144,16 @@ uint64_t match_hamming_avx512_scratch(const KernelShape& shape) {
 }
 
 void match_hamming_avx512(const MatchHammingArgs& args) {
-  if (args.left_mask != nullptr) {
-    match<true>(args);
-  } else {
-    match<false>(args);
+  if (args.left_mask == nullptr) return match_row<false, 0>(args);  // for studies: any length alike
+  switch (args.bits / 64) {
+    case 1:
+      return match_row<true, 1>(args);
+    case 2:
+      return match_row<true, 2>(args);
+    case 4:
+      return match_row<true, 4>(args);
+    default:
+      return match_row<true, 0>(args);
   }
 }
 
