@@ -90,27 +90,29 @@ double bound_cycles(const Core& core, const ColorLabArgs& args) {
   return cycles(core, args.width * Effort{56 / lanes(core, 4), 9, 4 / lanes(core, 4), 0});
 }
 
-// Per pair: two vectors of luma (one with AVX-512, where the other stays in a register for all pairs of its point) and a
-// compare (minimum and equality before AVX-512, whose compares are done by one ALU); two vectors pack to a word of signs.
+// Per pair: two vectors of luma (one on x86, where the other stays in a register for all pairs of its point) and a compare
+// (minimum and equality before AVX-512, whose compares are done by one ALU); two vectors pack to a word of signs.
 double bound_cycles(const Core& core, const DescriptorCompareArgs& args) {
   if (is(core, "scalar"))
     return cycles(core, 1.0 * args.width * args.pattern.bits * (Effort{2, 2, 0, 0} + transposed(core)));
   const Effort compares = is(core, "avx512") ? Effort{2 + 1, 2, 1, 2 + 1}
                           : is(core, "neon") ? Effort{2 + 1, 4, 1, 0}
-                                             : Effort{4 + 2, 4, 1, 0};
+                                             : Effort{4 + 2, 2, 1, 0};
   return cycles(core, args.width / lanes(core, 1) * args.pattern.bits * (compares + transposed(core)));
 }
 
 // Every point of the window in use once, two passes of eight thresholds (a byte of results a point: 4 operations; a pair: an
-// AND and a carry-save addition of 5, of 2 with three-operand logic), a compare with the threshold for each point, an AND
-// for each pair. Scalar: a histogram of the pairs' larger SADs instead of the passes, an AND of two results a pair.
+// AND and a carry-save addition of 5; of 2 with three-operand logic, and 2 ANDs and 4 loads for three pairs that share a
+// point), a compare with the threshold for each point, an AND for each pair. Scalar: a histogram of the pairs' larger SADs
+// instead of the passes, an AND of two results a pair.
 double bound_cycles(const Core& core, const MaskThresholdArgs& args) {
   const auto points = std::make_unique<PatternPoints>();
   number_points(args.pattern, *points);
   const double n = args.pattern.bits;
   const Effort sads = 1.0 * points->count * sad_of_point(core, args.planes);
   if (is(core, "scalar")) return cycles(core, args.width * (sads + n * (Effort{2 + 1, 3, 1, 0} + Effort{2 + 1, 2, 0, 0})));
-  const Effort pass = 1.0 * points->count * Effort{4, 1, 1, 0} + n * Effort{1.0 + (is(core, "avx512") ? 2 : 5), 2, 0, 0};
+  const Effort pair = is(core, "avx512") ? Effort{2 + 2 / 3.0, 4 / 3.0, 0, 0} : Effort{1 + 5, 2, 0, 0};
+  const Effort pass = 1.0 * points->count * Effort{4, 1, 1, 0} + n * pair;
   const Effort bits = 1.0 * points->count * Effort{2, 1, 1, 0} + n * (Effort{1, 2, 1, 0} + transposed(core));
   return cycles(core, args.width / lanes(core, 1) * (sads + 2.0 * pass + bits));
 }

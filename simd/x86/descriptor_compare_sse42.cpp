@@ -8,8 +8,8 @@
 
 namespace bsm {
 
-uint64_t descriptor_compare_sse42_scratch(const KernelShape&) {
-  return kDescriptorScratch;
+uint64_t descriptor_compare_sse42_scratch(const KernelShape& shape) {
+  return descriptor_scratch(shape);
 }
 
 void descriptor_compare_sse42(const DescriptorCompareArgs& args) {
