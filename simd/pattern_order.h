@@ -29,14 +29,24 @@ struct PatternOrder {
     uint16_t p, size;
   };
 
+  // Up to three pairs that share a point. Where there is none, the point behind the last one stands.
+  struct Triple {
+    uint16_t shared;
+    uint16_t others[3];
+  };
+
   PatternPoints points;
   Group groups[kMaxPoints];
   int32_t groups_count;
   uint32_t* partners;  // of all groups, one after the other: point q, the pair's bit above it
+  Triple* triples;
+  int32_t triples_count;  // a multiple of kTripleGroup
   // By number, while the order is made: pairs of a point, and the place of the next one.
   uint16_t shares[kMaxPoints];
   uint16_t next[kMaxPoints];
 };
+
+constexpr int32_t kTripleGroup = 32;
 
 // Kernels of these machines read Pattern::order.
 constexpr bool kOrdersPatterns = BSM_ARCH_X86_64;

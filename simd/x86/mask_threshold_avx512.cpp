@@ -1,8 +1,10 @@
 // mask_threshold, AVX-512 BW, VBMI, GFNI: 64 neighbouring pixels at once.
 // The SAD of every window offset in use is one byte a pixel, saturated at 255. A pass tries eight thresholds: bit j of a
-// byte says that the SAD is within threshold j, a pair is one AND, and carry-save adders count each of the 512 bits over all
-// pairs: 3 operations and 2 loads for 512 (pixel, threshold, pair) triples. Two passes find most T. With T known, one
-// compare an offset gives a word of 64 pixels and each pair is one AND of two words.
+// byte says that the SAD is within threshold j, and carry-save adders count each of the 512 bits over all pairs. Three pairs
+// that share an offset are added first: 8 operations and 4 loads for them all, ANDs with the shared offset included. Two
+// passes find most T. With T known, one compare an offset gives a word of 64 pixels; a pair is one AND of the words of two
+// blocks.
+// Bound: two ALUs, so 4/3 cycles a pair and pass, and 7/8 for the transposition, which one of them does.
 #include "platform/compiler.h"
 
 #if BSM_ARCH_X86_64
@@ -13,34 +15,50 @@
 namespace bsm {
 namespace {
 
-constexpr int32_t kHighLevels = 7;  // bits of a count from 64 on
+constexpr int32_t kBlocks = 2;      // whose words are made at once
+constexpr int32_t kHighLevels = 8;  // bits of a count from 32 on
 
 struct alignas(64) Scratch {
   uint8_t sad[kMaxPoints][64];
-  uint8_t within[kMaxPoints][64];  // bit j: the SAD is within threshold j
+  uint8_t within[kMaxPoints + 1][64];  // bit j: the SAD is within threshold j
   __m512i high[kHighLevels];
   uint64_t tile[kTileWords];
-  uint64_t words[kTileWords];
-  uint64_t point_words[kMaxPoints];
+  uint64_t words[kBlocks][kTileWords];
+  uint64_t point_words[kMaxPoints][kBlocks];
   uint16_t exact_sad[kMaxPoints];
   uint16_t histogram[kMaxSad + 1];
+  const PatternOrder* order;
   const PatternPoints* points;
+  const uint8_t* at[kMaxPoints];  // first plane of the points of pixel 0
 };
 
 inline __m512i distance(__m512i a, __m512i b) {
   return _mm512_sub_epi8(_mm512_max_epu8(a, b), _mm512_min_epu8(a, b));
 }
 
+// The same with a compare, which another ALU does.
+inline __m512i distance_by_order(__m512i a, __m512i b) {
+  return _mm512_mask_sub_epi8(_mm512_sub_epi8(a, b), _mm512_cmplt_epu8_mask(a, b), b, a);
+}
+
 template <int32_t kPlanes>
-void window_sad(const MaskThresholdArgs& args, int32_t x, Scratch& scratch) {
-  const uint8_t* const* rows = args.rows + args.pattern.radius;
+BSM_NOINLINE void window_sad(const MaskThresholdArgs& args, int32_t x, Scratch& scratch) {
+  const uint8_t* own = args.rows[args.pattern.radius] + x;
+  const ptrdiff_t stride = args.plane_stride;
   __m512i center[kPlanes];
-  for (int32_t i = 0; i < kPlanes; ++i) center[i] = _mm512_loadu_si512(rows[0] + x + i * args.plane_stride);
-  for (int32_t i = 0; i < scratch.points->count; ++i) {
-    const uint8_t* at = rows[scratch.points->points[i].dy] + x + scratch.points->points[i].dx;
-    __m512i sad = distance(center[0], _mm512_loadu_si512(at));
+  BSM_UNROLL
+  for (int32_t i = 0; i < kPlanes; ++i) center[i] = _mm512_loadu_si512(own + i * stride);
+  const int32_t count = scratch.points->count;
+  for (int32_t i = 0; i < count; ++i) {
+    const uint8_t* at = scratch.at[i] + x;
+    __m512i color[kPlanes];
+    BSM_UNROLL
+    for (int32_t plane = 0; plane < kPlanes; ++plane) color[plane] = _mm512_loadu_si512(at + plane * stride);
+    BSM_KEEP_ORDER();  // each is loaded once
+    __m512i sad = distance(center[0], color[0]);
+    BSM_UNROLL
     for (int32_t plane = 1; plane < kPlanes; ++plane) {
-      sad = _mm512_adds_epu8(sad, distance(center[plane], _mm512_loadu_si512(at + plane * args.plane_stride)));
+      sad = _mm512_adds_epu8(sad, distance_by_order(center[plane], color[plane]));
     }
     _mm512_store_si512(scratch.sad[i], sad);
   }
@@ -57,7 +75,7 @@ inline __m512i carry3(__m512i a, __m512i b, __m512i sum) {
 }
 
 struct Counter {
-  __m512i level[6];  // bits 0..5 of 512 counts
+  __m512i level[5];  // bits 0..4 of 512 counts
 };
 
 // Adds the bits a and b to a level; returns the carry.
@@ -67,55 +85,74 @@ BSM_INLINE __m512i add(Counter& counter, __m512i a, __m512i b) {
   return carry3(a, b, counter.level[kLevel]);
 }
 
-BSM_INLINE __m512i pair_within(const Scratch& scratch, const uint32_t& pair) {
-  const uint8_t* within = scratch.within[0];
-  uint16_t points[2];
-  BSM_MEMCPY(points, &pair, sizeof points);
-  const __m512i p = _mm512_load_si512(within + 8 * ptrdiff_t{points[0]});
-  return _mm512_and_si512(p, _mm512_load_si512(within + 8 * ptrdiff_t{points[1]}));
+BSM_INLINE __m512i load_within(const Scratch& scratch, uint16_t point) {
+  return _mm512_load_si512(scratch.within[0] + 8 * ptrdiff_t{point});
 }
 
+// How many of a triple's pairs are within: a bit of weight 1 and one of weight 2.
+struct Two {
+  __m512i ones, twos;
+};
+
+BSM_INLINE Two triple_within(const Scratch& scratch, const PatternOrder::Triple& triple) {
+  const __m512i a = load_within(scratch, triple.others[0]);
+  const __m512i b = load_within(scratch, triple.others[1]);
+  const __m512i sum = sum3(load_within(scratch, triple.others[2]), a, b);
+  const __m512i shared = load_within(scratch, triple.shared);
+  return Two{_mm512_and_si512(sum, shared), _mm512_and_si512(carry3(a, b, sum), shared)};
+}
+
+// Counts the pairs of the next 2 << kLevel triples, bits of the two weights apart; returns the carries.
 template <int32_t kLevel>
-BSM_INLINE __m512i add_pairs(Counter& counter, const Scratch& scratch, const uint32_t* pairs) {
+BSM_INLINE Two add_triples(Counter& ones, Counter& twos, const Scratch& scratch, const PatternOrder::Triple* triples) {
+  Two a, b;
   if constexpr (kLevel == 0) {
-    return add<0>(counter, pair_within(scratch, pairs[0]), pair_within(scratch, pairs[1]));
+    a = triple_within(scratch, triples[0]);
+    b = triple_within(scratch, triples[1]);
   } else {
-    const __m512i a = add_pairs<kLevel - 1>(counter, scratch, pairs);
-    BSM_KEEP_ORDER();
-    const __m512i b = add_pairs<kLevel - 1>(counter, scratch, pairs + (1 << kLevel));
-    return add<kLevel>(counter, a, b);
+    a = add_triples<kLevel - 1>(ones, twos, scratch, triples);
+    // Loads below stay below, and what the carries need above: so few values wait that none leaves the registers.
+    __asm__ volatile("" : "+v"(a.ones), "+v"(a.twos) : : "memory");
+    b = add_triples<kLevel - 1>(ones, twos, scratch, triples + (1 << kLevel));
   }
+  return Two{add<kLevel>(ones, a.ones, b.ones), add<kLevel>(twos, a.twos, b.twos)};
 }
 
 // Bit j of byte x: at least bits / 4 pairs of pixel x are within threshold j.
 BSM_NOINLINE __m512i enough(Scratch& scratch, int32_t bits) {
-  Counter counter;
+  Counter ones, twos;
   BSM_UNROLL
-  for (int32_t i = 0; i < 6; ++i) counter.level[i] = _mm512_setzero_si512();
-  const int32_t groups = bits / 64;
-  int32_t levels = 1;
-  while (groups >> levels != 0) ++levels;
+  for (int32_t i = 0; i < 5; ++i) ones.level[i] = twos.level[i] = _mm512_setzero_si512();
+  int32_t levels = 2;
+  while (bits >> (5 + levels) != 0) ++levels;
   for (int32_t i = 0; i < levels; ++i) scratch.high[i] = _mm512_setzero_si512();
-  for (int32_t group = 0; group < groups; ++group) {
-    __m512i carry = add_pairs<5>(counter, scratch, scratch.points->pairs + 64 * group);
-    for (int32_t i = 0; i < levels; ++i) {
+  const PatternOrder& order = *scratch.order;
+  for (int32_t first = 0; first < order.triples_count; first += kTripleGroup) {
+    const Two carries = add_triples<4>(ones, twos, scratch, order.triples + first);
+    __m512i carry = _mm512_and_si512(scratch.high[0], carries.ones);
+    scratch.high[0] = _mm512_xor_si512(scratch.high[0], carries.ones);
+    scratch.high[1] = sum3(scratch.high[1], carry, carries.twos);
+    carry = carry3(carry, carries.twos, scratch.high[1]);
+    for (int32_t i = 2; i < levels; ++i) {
       const __m512i old = scratch.high[i];
       scratch.high[i] = _mm512_xor_si512(old, carry);
       carry = _mm512_and_si512(old, carry);
     }
   }
-  // Compares with bits / 4 from the lowest bit up.
+  // Adds the counts up and compares with bits / 4, from the lowest bit up.
   const uint32_t wanted = static_cast<uint32_t>(bits) / 4;
   __m512i result = _mm512_set1_epi8(-1);
+  __m512i carry = _mm512_setzero_si512();
+  const auto compare = [&](int32_t bit, __m512i a, __m512i b) {
+    const __m512i sum = sum3(carry, a, b);
+    carry = carry3(a, b, sum);
+    result = (wanted >> bit & 1u) != 0 ? _mm512_and_si512(result, sum) : _mm512_or_si512(result, sum);
+  };
+  compare(0, ones.level[0], _mm512_setzero_si512());
   BSM_UNROLL
-  for (int32_t i = 0; i < 6; ++i) {
-    const __m512i level = counter.level[i];
-    result = (wanted >> i & 1u) != 0 ? _mm512_and_si512(result, level) : _mm512_or_si512(result, level);
-  }
-  for (int32_t i = 0; i < levels; ++i) {
-    const __m512i level = scratch.high[i];
-    result = (wanted >> (6 + i) & 1u) != 0 ? _mm512_and_si512(result, level) : _mm512_or_si512(result, level);
-  }
+  for (int32_t i = 1; i < 5; ++i) compare(i, ones.level[i], twos.level[i - 1]);
+  compare(5, scratch.high[0], twos.level[4]);
+  for (int32_t i = 1; i < levels; ++i) compare(5 + i, scratch.high[i], _mm512_setzero_si512());
   return result;
 }
 
@@ -200,19 +237,35 @@ inline __m512i find_threshold(Scratch& scratch, int32_t bits, __mmask64 wanted) 
 }
 
 // Words of the points: bit x says that the SAD of pixel x is within its threshold.
-BSM_NOINLINE void threshold_points(const MaskThresholdArgs& args, int32_t x, __mmask64 wanted, Scratch& scratch) {
+BSM_NOINLINE void threshold_points(const MaskThresholdArgs& args, int32_t x, int32_t block, __mmask64 wanted,
+                                   Scratch& scratch) {
   const __m512i threshold = find_threshold(scratch, args.pattern.bits, wanted);
-  for (int32_t i = 0; i < scratch.points->count; ++i) {
-    scratch.point_words[i] = _mm512_cmple_epu8_mask(_mm512_load_si512(scratch.sad[i]), threshold);
+  const int32_t count = scratch.points->count;
+  for (int32_t i = 0; i < count; ++i) {
+    scratch.point_words[i][block] = _mm512_cmple_epu8_mask(_mm512_load_si512(scratch.sad[i]), threshold);
   }
   uint64_t beyond = _mm512_mask_cmpeq_epi8_mask(wanted, threshold, _mm512_set1_epi8(-1));
   for (; beyond != 0; beyond &= beyond - 1) {
     const int32_t pixel = __builtin_ctzll(beyond);
     const uint32_t exact = exact_threshold(args, x + pixel, *scratch.points, scratch.exact_sad, scratch.histogram);
-    for (int32_t i = 0; i < scratch.points->count; ++i) {
+    for (int32_t i = 0; i < count; ++i) {
       const uint64_t bit = uint64_t{1} << pixel;
-      scratch.point_words[i] = scratch.exact_sad[i] <= exact ? scratch.point_words[i] | bit : scratch.point_words[i] & ~bit;
+      uint64_t& word = scratch.point_words[i][block];
+      word = scratch.exact_sad[i] <= exact ? word | bit : word & ~bit;
     }
+  }
+}
+
+// Words of the next pairs, of both blocks.
+BSM_NOINLINE void pair_words(Scratch& scratch, const uint32_t* pairs, int32_t count) {
+  const uint8_t* points = reinterpret_cast<const uint8_t*>(scratch.point_words);
+  for (int32_t i = 0; i < count; ++i) {
+    const uint32_t pair = pairs[i];
+    const __m128i p = _mm_load_si128(reinterpret_cast<const __m128i*>(points + 2 * uint64_t{pair & 0xffff}));
+    const __m128i q = _mm_load_si128(reinterpret_cast<const __m128i*>(points + 2 * uint64_t{pair >> 16}));
+    const __m128i words = _mm_and_si128(p, q);
+    _mm_storel_epi64(reinterpret_cast<__m128i*>(&scratch.words[0][i]), words);
+    _mm_storel_epi64(reinterpret_cast<__m128i*>(&scratch.words[1][i]), _mm_unpackhi_epi64(words, words));
   }
 }
 
@@ -226,27 +279,33 @@ void mask_threshold_avx512(const MaskThresholdArgs& args) {
   Scratch& scratch = *static_cast<Scratch*>(args.scratch);
   const int32_t bits = args.pattern.bits;
   const ptrdiff_t bytes = bits / 8;
-  scratch.points = &args.pattern.order->points;
-  for (int32_t x = 0; x < args.width; x += 64) {
-    const int32_t pixels = args.width - x < 64 ? args.width - x : 64;
-    const __mmask64 wanted = ~uint64_t{0} >> (64 - pixels);
-    if (args.planes == 3) {
-      window_sad<3>(args, x, scratch);
-    } else {
-      window_sad<1>(args, x, scratch);
+  scratch.order = args.pattern.order;
+  scratch.points = &scratch.order->points;
+  const uint8_t* const* rows = args.rows + args.pattern.radius;
+  for (int32_t i = 0; i < scratch.points->count; ++i) {
+    scratch.at[i] = rows[scratch.points->points[i].dy] + scratch.points->points[i].dx;
+  }
+  _mm512_store_si512(scratch.within[scratch.points->count], _mm512_setzero_si512());
+  for (int32_t x = 0; x < args.width; x += 64 * kBlocks) {
+    const int32_t blocks = args.width - x <= 64 ? 1 : kBlocks;
+    for (int32_t block = 0; block < blocks; ++block) {
+      const int32_t begin = x + 64 * block;
+      const int32_t pixels = args.width - begin < 64 ? args.width - begin : 64;
+      if (args.planes == 3) {
+        window_sad<3>(args, begin, scratch);
+      } else {
+        window_sad<1>(args, begin, scratch);
+      }
+      threshold_points(args, begin, block, ~uint64_t{0} >> (64 - pixels), scratch);
     }
-    threshold_points(args, x, wanted, scratch);
     for (int32_t first = 0; first < bits; first += kTileWords) {
       const int32_t count = bits - first < kTileWords ? bits - first : kTileWords;
-      const uint8_t* words = reinterpret_cast<const uint8_t*>(scratch.point_words);
-      for (int32_t i = 0; i < count; ++i) {
-        const uint32_t pair = scratch.points->pairs[first + i];
-        uint64_t p, q;
-        BSM_MEMCPY(&p, words + (pair & 0xffff), sizeof p);
-        BSM_MEMCPY(&q, words + (pair >> 16), sizeof q);
-        scratch.words[i] = p & q;
+      pair_words(scratch, scratch.points->pairs + first, count);
+      for (int32_t block = 0; block < blocks; ++block) {
+        const int32_t begin = x + 64 * block;
+        store_descriptors(scratch.words[block], count / 64, args.width - begin, args.out + begin * bytes + first / 8, bytes,
+                          scratch.tile);
       }
-      store_descriptors(scratch.words, count / 64, pixels, args.out + x * bytes + first / 8, bytes, scratch.tile);
     }
   }
 }

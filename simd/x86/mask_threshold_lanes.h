@@ -24,6 +24,7 @@ struct alignas(64) MaskScratch {
   uint16_t exact_sad[kMaxPoints];
   uint16_t histogram[kMaxSad + 1];
   const PatternPoints* points;
+  const uint8_t* at[kMaxPoints];  // first plane of the points of pixel 0
 };
 
 inline Bytes distance(Bytes a, Bytes b) {
@@ -32,14 +33,22 @@ inline Bytes distance(Bytes a, Bytes b) {
 
 template <int32_t kPlanes>
 inline void window_sad(const MaskThresholdArgs& args, int32_t x, MaskScratch& scratch) {
-  const uint8_t* const* rows = args.rows + args.pattern.radius;
+  const uint8_t* own = args.rows[args.pattern.radius] + x;
+  const ptrdiff_t stride = args.plane_stride;
   Bytes center[kPlanes];
-  for (int32_t i = 0; i < kPlanes; ++i) center[i] = load(rows[0] + x + i * args.plane_stride);
-  for (int32_t i = 0; i < scratch.points->count; ++i) {
-    const uint8_t* at = rows[scratch.points->points[i].dy] + x + scratch.points->points[i].dx;
-    Bytes sad = distance(center[0], load(at));
+  BSM_UNROLL
+  for (int32_t i = 0; i < kPlanes; ++i) center[i] = load(own + i * stride);
+  const int32_t count = scratch.points->count;
+  for (int32_t i = 0; i < count; ++i) {
+    const uint8_t* at = scratch.at[i] + x;
+    Bytes color[kPlanes];
+    BSM_UNROLL
+    for (int32_t plane = 0; plane < kPlanes; ++plane) color[plane] = load(at + plane * stride);
+    BSM_KEEP_ORDER();  // each is loaded once
+    Bytes sad = distance(center[0], color[0]);
+    BSM_UNROLL
     for (int32_t plane = 1; plane < kPlanes; ++plane) {
-      sad = add8_saturated(sad, distance(center[plane], load(at + plane * args.plane_stride)));
+      sad = add8_saturated(sad, distance(center[plane], color[plane]));
     }
     store(scratch.sad[i], sad);
   }
@@ -219,6 +228,10 @@ inline void threshold_masks(const MaskThresholdArgs& args) {
   const int32_t bits = args.pattern.bits;
   const ptrdiff_t bytes = bits / 8;
   scratch.points = &args.pattern.order->points;
+  const uint8_t* const* rows = args.rows + args.pattern.radius;
+  for (int32_t i = 0; i < scratch.points->count; ++i) {
+    scratch.at[i] = rows[scratch.points->points[i].dy] + scratch.points->points[i].dx;
+  }
   for (int32_t x = 0; x < args.width; x += kLanes) {
     const int32_t pixels = args.width - x < kLanes ? args.width - x : kLanes;
     if (args.planes == 3) {
