@@ -1,39 +1,18 @@
 #!/usr/bin/env bash
 # proofs.sh - properties of the library that its text and its object code show: which symbols it needs, that it holds no
-# writable data and no constructors, that it uses no floating point, and what it includes.
+# writable data and no constructors, that it uses no floating point, what it includes, and that a program needs no more.
 #
 # usage: bash tests/proofs.sh symbols|sections|float|includes|general-regs-x86_64|general-regs-aarch64 [LIBRARY]
+#        bash tests/proofs.sh freestanding LIBRARY [EMULATOR...]
 # Exit code: 0 proved, 1 refuted, 77 cannot be told here (the output says why).
-# NM and OBJDUMP name the tools for a library of another machine. On soft-float builds the proof of the symbols is one of no
+# NM, OBJDUMP and CXX name the tools for a library of another machine. On soft-float builds the proof of the symbols is one of no
 # floating point: its operations would be calls.
 set -u
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 proof=${1:-}
 library=${2:-}
-nm=${NM:-nm}
-objdump=${OBJDUMP:-objdump}
-
-skip() {
-  echo "SKIPPED: $1"
-  exit 77
-}
-
-fail() {
-  echo "FAILED: $1"
-  exit 1
-}
-
-need_library() {
-  [ -f "$library" ] || fail "'$library' is no file; give the path of libbsm.a"
-  case $library in
-    *.a) ;;
-    *) skip "the proof reads a static library" ;;
-  esac
-  command -v "$1" > /dev/null || skip "'$1' is not installed"
-  if "$nm" "$library" 2> /dev/null | grep -q '__asan_\|__ubsan_\|__gcov_\|__llvm_prof'; then
-    skip "instrumented build (sanitizer or coverage)"
-  fi
-}
+# shellcheck source=tests/proof_library.sh
+. "$root/tests/proof_library.sh"
 
 # The library's own source files, headers with the argument "all".
 sources() {
@@ -74,27 +53,28 @@ without_comments() {
 
 # Undefined symbols of the whole archive that it does not define itself.
 prove_symbols() {
-  need_library "$nm"
+  need_library "$library" "$nm"
   local allowed='^(memcpy|memset|memmove|memcmp'
   allowed+='|__(u?(div|mod)|u?divmod|mul|ashl|ashr|lshr|neg|u?cmp|popcount|clz|ctz|bswap|parity|ffs)[sdt]i[234]?' # integer helpers
   allowed+='|__gnu_thumb1_case_[us](qi|hi|si)' # switches on ARMv6-M
   allowed+='|__aeabi_(u?idiv(mod)?|u?ldivmod|lmul|llsl|llsr|lasr|u?lcmp|mem(cpy|move|set|clr)[48]?)'
+  allowed+='|getauxval' # the capabilities of an ARM processor, which Linux and Android report
   allowed+='|__mem(cpy|move|set)_chk|__stack_chk_(fail|guard)|_GLOBAL_OFFSET_TABLE_)$' # what distributions add
   local defined undefined foreign
   defined=$("$nm" -g --defined-only "$library" 2> /dev/null | awk 'NF >= 3 { print $3 }' | sort -u)
   undefined=$("$nm" -u "$library" 2> /dev/null | awk '$1 == "U" || $1 == "w" || $1 == "v" { print $2 }' | sort -u)
   [ -n "$defined" ] || fail "$nm finds no symbols in $library"
   foreign=$(comm -23 <(echo "$undefined") <(echo "$defined") | grep -Ev "$allowed" | grep .)
-  [ -z "$foreign" ] || fail "the library needs: $(echo $foreign)"
+  [ -z "$foreign" ] || fail "the library needs: ${foreign//$'\n'/ }"
   echo "needs nothing beyond: $(comm -23 <(echo "$undefined") <(echo "$defined") | grep . | tr '\n' ' ')"
   # Beside the C interface nothing but names of the namespace.
   foreign=$(echo "$defined" | grep -Ev '^(bsm_|_ZNK?3bsm|_ZT[VIS]N?3bsm)')
-  [ -z "$foreign" ] || fail "names outside bsm_ and bsm::: $(echo $foreign)"
+  [ -z "$foreign" ] || fail "names outside bsm_ and bsm::: ${foreign//$'\n'/ }"
 }
 
 # No writable data, no code that runs before main, no exception tables of its own.
 prove_sections() {
-  need_library "$objdump"
+  need_library "$library" "$nm" "$objdump"
   local bad
   bad=$("$objdump" -h "$library" | awk '
     /file format/ { object = $1 }
@@ -195,15 +175,37 @@ general_regs_aarch64() {
   fi
 }
 
+# freestanding LIBRARY EMULATOR...: a program of the library and the memory functions alone runs and finds the golden hashes.
+prove_freestanding() {
+  local compiler=${CXX:-c++}
+  need_library "$library" "$nm" "$compiler"
+  case $("$compiler" -dumpmachine) in
+    x86_64*linux* | aarch64*linux*) ;;
+    *) skip "the program has no entry point for $("$compiler" -dumpmachine)" ;;
+  esac
+  if "$nm" "$library" 2> /dev/null | grep -q '__stack_chk_fail'; then
+    skip "the compiler's stack protector needs the C library"
+  fi
+  dir=$(mktemp -d) || fail "no temporary folder"
+  trap 'rm -rf "$dir"' EXIT
+  # -O1: GCC makes no memory functions of their own loops.
+  "$compiler" -std=c++17 -O1 -ffreestanding -fno-exceptions -fno-rtti -fno-stack-protector -nostdlib -static \
+    -I"$root" -I"$root/core/include" -I"$root/platform" "$root/tests/freestanding.cpp" "$root/tests/scene_hashes.cpp" \
+    "$root/platform/host/scene.cpp" "$root/platform/host/scene_texture.cpp" "$root/platform/cortexm/memory.cpp" "$library" -o "$dir/program" || fail "the program does not link"
+  "$@" "$dir/program" || fail "the program ends with exit code $?; 1: local, 2: sgm"
+  echo "a static program without C library computes the golden hashes: $(wc -c < "$dir/program") bytes"
+}
+
 case $proof in
   symbols) prove_symbols ;;
   sections) prove_sections ;;
   float) prove_float ;;
+  freestanding) prove_freestanding "${@:3}" ;;
   includes) prove_includes ;;
   general-regs-x86_64) general_regs_x86_64 ;;
   general-regs-aarch64) general_regs_aarch64 ;;
   *)
-    sed -n '2,8s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
+    sed -n '2,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
     exit 2
     ;;
 esac

@@ -49,7 +49,13 @@ links_freestanding() {
     -Wl,--defsym=__aeabi_unwind_cpp_pr0=0 -o "$out/whole.elf" && arm-none-eabi-size "$out/whole.elf"
 }
 
-proof() { NM=arm-none-eabi-nm OBJDUMP=arm-none-eabi-objdump bash "$root/tests/proofs.sh" "$1" "$2"; }
+# The processor's own instructions for the assembler, without a floating-point unit.
+instructions_of() {
+  case $1 in
+    m55) echo -march=armv8.1-m.main+mve ;;
+    *) echo "-mcpu=cortex-$1 -mfpu=softvfp" ;;
+  esac
+}
 
 # A library with floating point in it, which the proof of the symbols has to refuse.
 make_float_library() {
@@ -67,8 +73,11 @@ test_core() {
     return
   }
   expect "$core, needs memory functions and integer helpers alone, no heap and no floating point" \
-    proof symbols "$root/build/cortex-$core/core/libbsm.a"
-  expect "$core, no writable data, no constructors" proof sections "$root/build/cortex-$core/core/libbsm.a"
+    proof arm-none-eabi proofs.sh symbols "$root/build/cortex-$core/core/libbsm.a"
+  expect "$core, no writable data, no constructors" proof arm-none-eabi proofs.sh sections "$root/build/cortex-$core/core/libbsm.a"
+  # shellcheck disable=SC2046  # flags are words of their own
+  expect "$core, no instruction that it lacks, no floating-point arithmetic" \
+    proof arm-none-eabi objects.sh scan "$root/build/cortex-$core/core/libbsm.a" -mthumb $(instructions_of "$core")
   expect "$core, links freestanding" links_freestanding "$core"
   expect "$core, $board: the example's map is this computer's" example_map "$core" "$board" "$out/160/left.ppm" "$out/160/right.ppm"
   expect "$core, $board: sgm, rows, $isa" gives_hash "fast rgb24 refined left" "$isa" "$core" "$board" probe preset=fast
@@ -121,5 +130,5 @@ run_cortexm() {
   test_core m33 mps2-an505 dsp
   test_core m55 mps3-an547 mve
   expect "a library with floating point" make_float_library
-  expect "floating point, refused" refuses "__aeabi_fmul" proof symbols "$out/float.a"
+  expect "floating point, refused" refuses "__aeabi_fmul" proof arm-none-eabi proofs.sh symbols "$out/float.a"
 }

@@ -19,23 +19,55 @@ cross() {
     return
   fi
   for entry in "$@"; do emulate "$suite" "$build" "${entry%%:*}" "${entry#*:}" "$emulator" -L "/usr/$triple"; done
+  expect "no symbols beyond memory functions, integer helpers and getauxval" proof "$triple" proofs.sh symbols "$build/core/libbsm.a"
+  expect "no writable data, no constructors" proof "$triple" proofs.sh sections "$build/core/libbsm.a"
+}
+
+# proof TRIPLE SCRIPT ARGUMENT...: a proof with the tools of another machine.
+proof() {
+  local triple=$1 script=$2
+  shift 2
+  env "NM=$triple-nm" "OBJDUMP=$triple-objdump" "AS=$triple-as" "CXX=$triple-g++" bash "$root/tests/$script" "$@"
+}
+
+# scan SUITE TRIPLE FLAG...: the objects of a suite's library hold no instruction beyond these flags and their own set.
+scan() {
+  local suite=$1 triple=$2 library=$root/build/$1/core/libbsm.a
+  shift 2
+  [ ! -f "$library" ] || expect "each object has its own instructions, and no floating-point arithmetic" \
+    proof "$triple" objects.sh scan "$library" "$@"
+}
+
+# scan_refuses SUITE TRIPLE FLAG...: and the scan sees what is foreign.
+scan_refuses() {
+  local suite=$1 triple=$2
+  shift 2
+  [ ! -d "$root/build/$suite/core" ] || expect "foreign instructions and shared symbols, refused" proof "$triple" objects.sh self-test "$@"
 }
 
 run_arm64() {
   cross arm64 aarch64-linux-gnu qemu-aarch64 cortex-a53:neon cortex-a76:neon a64fx:sve max,sve128=on:sve max,sve256=on:sve \
     max,sve-default-vector-length=256:sve
+  scan arm64 aarch64-linux-gnu
+  if [ -f "$root/build/arm64/core/libbsm.a" ]; then
+    suite=arm64 expect "a program without C library" \
+      proof aarch64-linux-gnu proofs.sh freestanding "$root/build/arm64/core/libbsm.a" qemu-aarch64
+  fi
+  scan_refuses arm64 aarch64-linux-gnu
 }
-run_arm32() { cross arm32 arm-linux-gnueabihf qemu-arm cortex-a7:neon cortex-a9,neon=off:scalar; }
+run_arm32() {
+  cross arm32 arm-linux-gnueabihf qemu-arm cortex-a7:neon cortex-a9,neon=off:scalar
+  scan arm32 arm-linux-gnueabihf -march=armv7-a -mfpu=vfpv3-d16 -mthumb
+  scan_refuses arm32 arm-linux-gnueabihf -march=armv7-a -mfpu=vfpv3-d16 -mthumb
+}
 
 # Machines without kernels of their own: no floating-point unit (ARMv5TE), RISC-V, and big-endian.
 run_armv5() {
-  # shellcheck disable=SC2034  # read by expect
-  local suite=armv5
   cross armv5 arm-linux-gnueabi qemu-arm arm926:scalar
-  if [ -f "$root/build/armv5/core/libbsm.a" ]; then
-    expect "no floating point, memory functions and integer helpers alone" \
-      env NM=arm-linux-gnueabi-nm OBJDUMP=arm-linux-gnueabi-objdump bash "$root/tests/proofs.sh" symbols "$root/build/armv5/core/libbsm.a"
-  fi
+  scan armv5 arm-linux-gnueabi -march=armv5te -mfpu=softvfp
 }
-run_riscv64() { cross riscv64 riscv64-linux-gnu qemu-riscv64 rv64:scalar; }
+run_riscv64() {
+  cross riscv64 riscv64-linux-gnu qemu-riscv64 rv64:scalar
+  scan riscv64 riscv64-linux-gnu
+}
 run_s390x() { cross s390x s390x-linux-gnu qemu-s390x max:scalar; }
