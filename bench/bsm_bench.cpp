@@ -6,6 +6,7 @@
 #include "bench/command_line.h"
 #include "bench/frame_bench.h"
 #include "bench/kernel_bench.h"
+#include "bench/savings_bench.h"
 #include "bench/worst_bench.h"
 #include "bsm/bsm.h"
 #include "host/config_options.h"
@@ -18,12 +19,14 @@ constexpr char kProgram[] = "bsm_bench";
 constexpr char kKernels[] = "bsm_bench kernels";
 constexpr char kFrame[] = "bsm_bench frame";
 constexpr char kWorst[] = "bsm_bench worst";
+constexpr char kSavings[] = "bsm_bench savings";
 constexpr char kHelp[] =
     "usage: bsm_bench COMMAND [options]\n\n"
     "commands:\n"
     "  kernels [options]           time of each kernel that this machine can run\n"
     "  frame LEFT RIGHT [options]  time of a whole frame and of its stages\n"
-    "  worst LEFT RIGHT [options]  time of frames that have nothing to match, beside a pair's\n\n"
+    "  worst LEFT RIGHT [options]  time of frames that have nothing to match, beside a pair's\n"
+    "  savings LEFT RIGHT [options]  each saving of the kernels against the same computation without it\n\n"
     "'bsm_bench COMMAND --help' lists the options.\n";
 
 int usage_error(const char* program, const std::string& message) {
@@ -105,17 +108,42 @@ int worst_command(int argc, char** argv) {
   return kExitData;
 }
 
+int savings_command(int argc, char** argv) {
+  SavingsBench bench;
+  host::Options options(
+      kSavings, "bsm_bench savings LEFT RIGHT [options]",
+      "Times each saving of the kernels against the same computation without it, on rows of a pair of PPM or PGM\n"
+      "images, and checks that both write the same bytes.");
+  options.positional("LEFT", &bench.left);
+  options.positional("RIGHT", &bench.right);
+  options.integer("--bits", "N", &bench.bits, BSM_MIN_BITS, BSM_MAX_BITS, "descriptor length, a multiple of 64");
+  options.integer("--disparities", "D", &bench.disparities, 1, BSM_MAX_DISPARITY + 1,
+                  "how many disparities are searched, from 0 up");
+  options.integer("--repeat", "R", &bench.repeat, 1, 1000000, "rounds; the median is reported");
+  options.flag("--csv", &bench.csv, "comma-separated values");
+  int exit_code = kExitOk;
+  if (!parse_command_line(argc, argv, &options, &exit_code)) return exit_code;
+  if (bench.bits % BSM_MIN_BITS != 0) {
+    return usage_error(kSavings, "--bits '" + std::to_string(bench.bits) + "': not a multiple of 64");
+  }
+  std::string error;
+  if (run_savings_bench(bench, &error)) return kExitOk;
+  complain(kSavings, error);
+  return kExitData;
+}
+
 int main_program(int argc, char** argv) {
   const std::string command = argc > 1 ? argv[1] : "";
   if (command == "kernels") return kernels_command(argc - 1, argv + 1);
   if (command == "frame") return frame_command(argc - 1, argv + 1);
   if (command == "worst") return worst_command(argc - 1, argv + 1);
+  if (command == "savings") return savings_command(argc - 1, argv + 1);
   if (command == "--help" || command == "-h") {
     std::fputs(kHelp, stdout);
     return kExitOk;
   }
-  return usage_error(
-      kProgram, command.empty() ? "a command is missing: kernels, frame or worst" : "'" + command + "': no such command");
+  return usage_error(kProgram, command.empty() ? "a command is missing: kernels, frame, worst or savings"
+                                               : "'" + command + "': no such command");
 }
 
 }  // namespace

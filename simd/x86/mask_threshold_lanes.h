@@ -198,17 +198,21 @@ inline Bytes find_threshold(MaskScratch& scratch, int32_t bits, Bytes wanted) {
   }
 }
 
-// Words of the points: bit x says that the SAD of pixel x is within its threshold.
-inline void threshold_points(const MaskThresholdArgs& args, int32_t x, int32_t pixels, MaskScratch& scratch) {
+// The bytes of the pixels, of kLanes, that lie in the row.
+inline Bytes lanes_of(int32_t pixels) {
   alignas(32) uint8_t lanes[kLanes];
   for (int32_t i = 0; i < kLanes; ++i) lanes[i] = i < pixels ? 0xff : 0;
-  const Bytes wanted = load(lanes);
-  const Bytes threshold = find_threshold(scratch, args.pattern.bits, wanted);
+  return load(lanes);
+}
+
+// Words of the points: bit x says that the SAD of pixel x is within its threshold.
+inline void threshold_points(const MaskThresholdArgs& args, int32_t x, int32_t pixels, Bytes threshold,
+                             MaskScratch& scratch) {
   for (int32_t i = 0; i < scratch.points->count; ++i) {
     const Bytes sad = load(scratch.sad[i]);
     scratch.point_words[i] = signs(equal8(min8(sad, threshold), sad));
   }
-  const Word beyond = signs(both(equal8(threshold, set8(-1)), wanted));
+  const Word beyond = signs(both(equal8(threshold, set8(-1)), lanes_of(pixels)));
   for (int32_t pixel = 0; pixel < pixels; ++pixel) {
     if ((beyond >> pixel & 1) == 0) continue;
     const uint32_t exact = exact_threshold(args, x + pixel, *scratch.points, scratch.exact_sad, scratch.histogram);
@@ -220,13 +224,29 @@ inline void threshold_points(const MaskThresholdArgs& args, int32_t x, int32_t p
   }
 }
 
-inline void threshold_masks(const MaskThresholdArgs& args) {
+// The pairs' words, each one AND of two points' words, as the masks of the pixels from x on.
+inline void store_masks(const MaskThresholdArgs& args, int32_t x, int32_t pixels, MaskScratch& scratch) {
   static constexpr int32_t kInOrder[4] = {0, 1, 2, 3};
   int32_t byte_of[kLanes / 8];
   for (int32_t i = 0; i < kLanes / 8; ++i) byte_of[i] = kInOrder[i];
-  MaskScratch& scratch = *static_cast<MaskScratch*>(args.scratch);
   const int32_t bits = args.pattern.bits;
   const ptrdiff_t bytes = bits / 8;
+  for (int32_t first = 0; first < bits; first += kWordsAtOnce) {
+    const int32_t count = bits - first < kWordsAtOnce ? bits - first : kWordsAtOnce;
+    const uint8_t* words = reinterpret_cast<const uint8_t*>(scratch.point_words);
+    for (int32_t i = 0; i < count; ++i) {
+      const uint32_t pair = scratch.points->pairs[first + i];
+      Word p, q;
+      BSM_MEMCPY(&p, words + (pair & 0xffff), sizeof p);
+      BSM_MEMCPY(&q, words + (pair >> 16), sizeof q);
+      scratch.words[i] = static_cast<Word>(p & q);
+    }
+    store_descriptors<false>(scratch.words, count, byte_of, pixels, args.out + x * bytes + first / 8, bytes);
+  }
+}
+
+inline void threshold_masks(const MaskThresholdArgs& args) {
+  MaskScratch& scratch = *static_cast<MaskScratch*>(args.scratch);
   scratch.points = &args.pattern.order->points;
   const uint8_t* const* rows = args.rows + args.pattern.radius;
   for (int32_t i = 0; i < scratch.points->count; ++i) {
@@ -239,19 +259,9 @@ inline void threshold_masks(const MaskThresholdArgs& args) {
     } else {
       window_sad<1>(args, x, scratch);
     }
-    threshold_points(args, x, pixels, scratch);
-    for (int32_t first = 0; first < bits; first += kWordsAtOnce) {
-      const int32_t count = bits - first < kWordsAtOnce ? bits - first : kWordsAtOnce;
-      const uint8_t* words = reinterpret_cast<const uint8_t*>(scratch.point_words);
-      for (int32_t i = 0; i < count; ++i) {
-        const uint32_t pair = scratch.points->pairs[first + i];
-        Word p, q;
-        BSM_MEMCPY(&p, words + (pair & 0xffff), sizeof p);
-        BSM_MEMCPY(&q, words + (pair >> 16), sizeof q);
-        scratch.words[i] = static_cast<Word>(p & q);
-      }
-      store_descriptors<false>(scratch.words, count, byte_of, pixels, args.out + x * bytes + first / 8, bytes);
-    }
+    const Bytes threshold = find_threshold(scratch, args.pattern.bits, lanes_of(pixels));
+    threshold_points(args, x, pixels, threshold, scratch);
+    store_masks(args, x, pixels, scratch);
   }
 }
 

@@ -1,4 +1,19 @@
 # shellcheck shell=bash disable=SC2154  # root, jobs and the counts are run.sh's
 # The build that users make, on this machine.
 
-run_native() { run_suite native tests . -DCMAKE_BUILD_TYPE=Release; }
+run_native() {
+  run_suite native tests . -DCMAKE_BUILD_TYPE=Release
+  savings_change_nothing
+}
+
+# Each saving of the kernels writes the bytes of the same computation without it, and the measurement of them runs.
+savings_change_nothing() {
+  # shellcheck disable=SC2034  # read by expect
+  local suite=native bits out=$root/build/tests/savings
+  expect "savings, scene" "$root/build/tests/platform/host/bsm" demo "$out" && gray_pair "$out" || return
+  for bits in 64 256 4096; do
+    expect "savings change nothing, $bits bits" "$root/build/tests/bench/bsm_bench" savings "$out/left.ppm" "$out/right.ppm" \
+      --bits "$bits" --repeat 1
+  done
+  expect "savings change nothing, gray" "$root/build/tests/bench/bsm_bench" savings "$out/left.pgm" "$out/right.pgm" --repeat 1
+}

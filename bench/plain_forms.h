@@ -1,0 +1,36 @@
+// Kernels without one of their savings: what the equations say, or the kernel with that one step done the plain way. They
+// write the bytes of the kernels of simd/kernels.h and take the same arguments.
+#ifndef BSM_BENCH_PLAIN_FORMS_H
+#define BSM_BENCH_PLAIN_FORMS_H
+
+#include "simd/kernels.h"
+
+namespace bsm::bench {
+
+// mask_threshold_scalar, but every pair compares the colours of its two ends itself (eq. 6).
+mask_threshold_fn mask_colors_by_pair;
+kernel_scratch_fn mask_colors_by_pair_scratch;
+
+// match_hamming_scalar without its early end, and the same with an XOR for each view.
+match_hamming_fn match_all_bits, match_each_view;
+kernel_scratch_fn match_all_bits_scratch, match_each_view_scratch;
+
+// aggregate_along_scalar, but every level looks for the least of the predecessor's levels itself.
+aggregate_along_fn aggregate_least_by_level;
+kernel_scratch_fn aggregate_least_by_level_scratch;
+
+// median_weighted_scalar, but every window is sorted.
+median_weighted_fn median_by_sorting;
+kernel_scratch_fn median_by_sorting_scratch;
+
+#if BSM_ARCH_X86_64 && defined(BSM_HAVE_X86_AVX2)
+// mask_threshold_avx2, but every pair compares with the threshold itself.
+mask_threshold_fn mask_threshold_by_pair_avx2;
+// mask_threshold_avx2, but T is found by bisection, one threshold a pass over the pairs; and by eight thresholds a pass with
+// the steps 32, 4 and 1 for all pixels.
+mask_threshold_fn mask_by_bisection_avx2, mask_by_even_steps_avx2;
+#endif
+
+}  // namespace bsm::bench
+
+#endif  // BSM_BENCH_PLAIN_FORMS_H

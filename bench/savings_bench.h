@@ -1,0 +1,24 @@
+// Times each saving of the kernels against the same computation without it, on rows of a real pair.
+#ifndef BSM_BENCH_SAVINGS_BENCH_H
+#define BSM_BENCH_SAVINGS_BENCH_H
+
+#include <cstdint>
+#include <string>
+
+namespace bsm::bench {
+
+struct SavingsBench {
+  std::string left, right;  // image files
+  int32_t bits = 256;
+  int32_t disparities = 64;
+  int32_t repeat = 31;
+  bool csv = false;
+};
+
+// Reads the pair, compares what both forms write, measures and prints. False with a sentence when a file stands in the way
+// or a saving changes its output.
+bool run_savings_bench(const SavingsBench& bench, std::string* error);
+
+}  // namespace bsm::bench
+
+#endif  // BSM_BENCH_SAVINGS_BENCH_H
