@@ -23,7 +23,7 @@ kernel_scratch_fn aggregate_least_by_level_scratch;
 median_weighted_fn median_by_sorting;
 kernel_scratch_fn median_by_sorting_scratch;
 
-#if BSM_ARCH_X86_64 && defined(BSM_HAVE_X86_AVX2)
+#if BSM_ARCH_X86_64 && defined(BSM_BENCH_AVX2)
 // mask_threshold_avx2, but every pair compares with the threshold itself.
 mask_threshold_fn mask_threshold_by_pair_avx2;
 // mask_threshold_avx2, but T is found by bisection, one threshold a pass over the pairs; and by eight thresholds a pass with

@@ -92,7 +92,7 @@ std::vector<Saving> all_savings(const PairRows& rows) {
   list.push_back(saving<MaskThresholdArgs>(rows, "colours compared once a window offset, not by each pair",
                                            "mask_threshold_scalar", {mask_colors_by_pair, mask_colors_by_pair_scratch},
                                            mask));
-#if BSM_ARCH_X86_64 && defined(BSM_HAVE_X86_AVX2)
+#if BSM_ARCH_X86_64 && defined(BSM_BENCH_AVX2)
   if ((kIsaAvx2 & ~cpu_features()) == 0) {
     const Mask avx2{mask_threshold_avx2, mask_threshold_avx2_scratch};
     const Mask by_pair{mask_threshold_by_pair_avx2, mask_threshold_avx2_scratch};
