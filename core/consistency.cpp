@@ -31,7 +31,8 @@ void check_levels(const Winners& winners, View view, int32_t tolerance, uint16_t
     if (levels[x] == kNoLevel) continue;
     const uint16_t back = others[matched_pixel(winners, view, x, levels[x])];
     const int32_t difference = whole_level(back) - whole_level(levels[x]);
-    if (-tolerance <= difference && difference <= tolerance) out[x] = levels[x];
+    const bool same = -tolerance <= difference && difference <= tolerance;
+    out[x] = same ? levels[x] : out[x];  // without a branch: nobody can foretell it
   }
 }
 
