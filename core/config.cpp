@@ -1,6 +1,8 @@
 // Defaults and limits of a configuration.
 #include "core/config.h"
 
+#include <stddef.h>
+
 #include "platform/compiler.h"
 #include "simd/build.h"
 
@@ -11,17 +13,60 @@ bool within(int32_t value, int32_t least, int32_t most) {
   return least <= value && value <= most;
 }
 
-}  // namespace
+// A field whose range depends on no other field.
+struct Range {
+  uint8_t field;  // its place, in words
+  int8_t refused;
+  int16_t least, most;
+};
 
-bool has_chroma_plane(int32_t format) {
-  return format == BSM_FORMAT_NV12 || format == BSM_FORMAT_NV21;
-}
+#define BSM_RANGE(field, least, most, refused)                                                \
+  Range {                                                                                     \
+    static_cast<uint8_t>(offsetof(bsm_config, field) / sizeof(int32_t)), refused, least, most \
+  }
+constexpr Range kRanges[] = {
+    BSM_RANGE(width, 1, BSM_MAX_SIZE, BSM_ERROR_WIDTH),
+    BSM_RANGE(height, 1, BSM_MAX_SIZE, BSM_ERROR_HEIGHT),
+    BSM_RANGE(min_disparity, BSM_MIN_DISPARITY, BSM_MAX_DISPARITY, BSM_ERROR_MIN_DISPARITY),
+    BSM_RANGE(method, kHasLocal ? BSM_METHOD_LOCAL : BSM_METHOD_SGM, kHasSgm ? BSM_METHOD_SGM : BSM_METHOD_LOCAL,
+              BSM_ERROR_METHOD),
+    // The stages before the aggregation are the local method's.
+    BSM_RANGE(stage, kHasLocal ? BSM_STAGE_COST : BSM_STAGE_AGGREGATED,
+              kHasRefinement ? BSM_STAGE_REFINED : BSM_STAGE_CHECKED, BSM_ERROR_STAGE),
+    BSM_RANGE(format, BSM_FORMAT_GRAY8, kHasColor ? BSM_FORMAT_YUYV : BSM_FORMAT_GRAY8, BSM_ERROR_FORMAT),
+    BSM_RANGE(p1, 1, 16384, BSM_ERROR_PENALTY),
+    BSM_RANGE(p2, 1, 16384, BSM_ERROR_PENALTY),
+    BSM_RANGE(edge_threshold, 1, 255, BSM_ERROR_EDGE),
+    BSM_RANGE(edge_divisor, 1, 64, BSM_ERROR_EDGE),
+    BSM_RANGE(right_costs, BSM_RIGHT_COSTS_OWN, BSM_RIGHT_COSTS_LEFT, BSM_ERROR_RIGHT_COSTS),
+    BSM_RANGE(subpixel, 0, 1, BSM_ERROR_SUBPIXEL),
+    BSM_RANGE(lr_tolerance, 0, 255, BSM_ERROR_TOLERANCE),
+    BSM_RANGE(speckle, 0, 100, BSM_ERROR_SPECKLE),
+    BSM_RANGE(border, 0, 1, BSM_ERROR_BORDER),
+    BSM_RANGE(vote_radius, 1, BSM_MAX_VOTE_RADIUS, BSM_ERROR_VOTE_RADIUS),
+    BSM_RANGE(vote_step, 1, BSM_MAX_VOTE_RADIUS, BSM_ERROR_VOTE_STEP),
+    BSM_RANGE(vote_color, 1, 64, BSM_ERROR_VOTE_COLOR),
+    BSM_RANGE(vote_distance, 1, 64, BSM_ERROR_VOTE_DISTANCE),
+    BSM_RANGE(vote_cap, 0, 1, BSM_ERROR_VOTE_CAP),
+    BSM_RANGE(smooth_radius, 1, BSM_MAX_SMOOTH_RADIUS, BSM_ERROR_SMOOTH_RADIUS),
+    BSM_RANGE(smooth_passes, 0, BSM_MAX_SMOOTH_PASSES, BSM_ERROR_SMOOTH_PASSES),
+    BSM_RANGE(smooth_color, 1, 64, BSM_ERROR_SMOOTH_COLOR),
+    BSM_RANGE(smooth_distance, 2, 64, BSM_ERROR_SMOOTH_DISTANCE),
+    BSM_RANGE(median, 0, 1, BSM_ERROR_MEDIAN),
+    BSM_RANGE(right_map, 0, 1, BSM_ERROR_RIGHT_MAP),
+    BSM_RANGE(confidence, 0, kHasConfidence ? 1 : 0, BSM_ERROR_CONFIDENCE),
+    BSM_RANGE(max_jobs, 1, BSM_MAX_JOBS, BSM_ERROR_JOBS),
+};
+#undef BSM_RANGE
+
+}  // namespace
 
 int32_t chroma_row_bytes(const bsm_config& config) {
   return config.width + (config.width & 1);
 }
 
 int32_t row_bytes(const bsm_config& config) {
+  if (!kHasColor) return config.width;
   switch (config.format) {
     case BSM_FORMAT_GRAY8:
     case BSM_FORMAT_NV12:
@@ -45,44 +90,19 @@ bsm_status validate_config(const bsm_config* config) {
   for (const uint32_t reserved : config->reserved) {
     if (reserved != 0) return BSM_ERROR_RESERVED;
   }
-  if (!within(config->width, 1, BSM_MAX_SIZE)) return BSM_ERROR_WIDTH;
-  if (!within(config->height, 1, BSM_MAX_SIZE)) return BSM_ERROR_HEIGHT;
-  if (!within(config->min_disparity, BSM_MIN_DISPARITY, BSM_MAX_DISPARITY)) return BSM_ERROR_MIN_DISPARITY;
-  if (!within(config->num_disparities, 1, BSM_MAX_DISPARITY - config->min_disparity + 1)) return BSM_ERROR_NUM_DISPARITIES;
-  if (!within(config->method, kHasLocal ? BSM_METHOD_LOCAL : BSM_METHOD_SGM, kHasSgm ? BSM_METHOD_SGM : BSM_METHOD_LOCAL)) {
-    return BSM_ERROR_METHOD;
+  for (const Range& range : kRanges) {
+    int32_t value;
+    BSM_MEMCPY(&value, reinterpret_cast<const uint8_t*>(config) + sizeof value * range.field, sizeof value);
+    if (!within(value, range.least, range.most)) return static_cast<bsm_status>(range.refused);
   }
+  if (!within(config->num_disparities, 1, BSM_MAX_DISPARITY - config->min_disparity + 1)) return BSM_ERROR_NUM_DISPARITIES;
   const bool sgm = config->method == BSM_METHOD_SGM;
   const int32_t most_bits = sgm ? BSM_MAX_SGM_BITS : BSM_MAX_BITS;
   if (!within(config->bits, BSM_MIN_BITS, most_bits) || config->bits % BSM_MIN_BITS != 0) return BSM_ERROR_BITS;
-  // The stages before the aggregation are the local method's.
-  if (!within(config->stage, kHasLocal ? BSM_STAGE_COST : BSM_STAGE_AGGREGATED,
-              kHasRefinement ? BSM_STAGE_REFINED : BSM_STAGE_CHECKED))
-    return BSM_ERROR_STAGE;
   if (config->stage == BSM_STAGE_AGGREGATED && !sgm) return BSM_ERROR_STAGE;
-  if (!within(config->format, BSM_FORMAT_GRAY8, kHasColor ? BSM_FORMAT_YUYV : BSM_FORMAT_GRAY8)) return BSM_ERROR_FORMAT;
   if (!within(config->paths, 3, 5) && config->paths != 8) return BSM_ERROR_PATHS;
-  if (!within(config->p1, 1, 16384) || !within(config->p2, config->p1, 16384)) return BSM_ERROR_PENALTY;
-  if (!within(config->edge_threshold, 1, 255) || !within(config->edge_divisor, 1, 64)) return BSM_ERROR_EDGE;
-  if (!within(config->right_costs, BSM_RIGHT_COSTS_OWN, BSM_RIGHT_COSTS_LEFT)) return BSM_ERROR_RIGHT_COSTS;
-  if (!within(config->subpixel, 0, 1)) return BSM_ERROR_SUBPIXEL;
-  if (!within(config->lr_tolerance, 0, 255)) return BSM_ERROR_TOLERANCE;
-  if (!within(config->speckle, 0, 100)) return BSM_ERROR_SPECKLE;
-  if (!within(config->border, 0, 1)) return BSM_ERROR_BORDER;
-  if (!within(config->vote_radius, 1, BSM_MAX_VOTE_RADIUS)) return BSM_ERROR_VOTE_RADIUS;
-  if (!within(config->vote_step, 1, config->vote_radius)) return BSM_ERROR_VOTE_STEP;
+  if (config->p1 > config->p2) return BSM_ERROR_PENALTY;
   if (config->vote_radius % config->vote_step != 0) return BSM_ERROR_VOTE_STEP;
-  if (!within(config->vote_color, 1, 64)) return BSM_ERROR_VOTE_COLOR;
-  if (!within(config->vote_distance, 1, 64)) return BSM_ERROR_VOTE_DISTANCE;
-  if (!within(config->vote_cap, 0, 1)) return BSM_ERROR_VOTE_CAP;
-  if (!within(config->smooth_radius, 1, BSM_MAX_SMOOTH_RADIUS)) return BSM_ERROR_SMOOTH_RADIUS;
-  if (!within(config->smooth_passes, 0, BSM_MAX_SMOOTH_PASSES)) return BSM_ERROR_SMOOTH_PASSES;
-  if (!within(config->smooth_color, 1, 64)) return BSM_ERROR_SMOOTH_COLOR;
-  if (!within(config->smooth_distance, 2, 64)) return BSM_ERROR_SMOOTH_DISTANCE;
-  if (!within(config->median, 0, 1)) return BSM_ERROR_MEDIAN;
-  if (!within(config->right_map, 0, 1)) return BSM_ERROR_RIGHT_MAP;
-  if (!within(config->confidence, 0, kHasConfidence ? 1 : 0)) return BSM_ERROR_CONFIDENCE;
-  if (!within(config->max_jobs, 1, BSM_MAX_JOBS)) return BSM_ERROR_JOBS;
   return BSM_OK;
 }
 

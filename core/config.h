@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "bsm/bsm.h"
+#include "simd/build.h"
 
 namespace bsm {
 
@@ -12,7 +13,9 @@ namespace bsm {
 bsm_status validate_config(const bsm_config* config);
 
 // Whether the format has a second plane: one chroma row for two rows of pixels.
-bool has_chroma_plane(int32_t format);
+inline bool has_chroma_plane(int32_t format) {
+  return kHasColor && (format == BSM_FORMAT_NV12 || format == BSM_FORMAT_NV21);
+}
 
 // Bytes of a row of plane 0 or, in a format that has it, of the chroma plane.
 int32_t row_bytes(const bsm_config& config);

@@ -57,6 +57,14 @@ instructions_of() {
   esac
 }
 
+# flash_within CORE BYTES: code and constants of a build's library.
+flash_within() {
+  local bytes
+  bytes=$(bash "$root/platform/cortexm/measure.sh" --flash "$root/build/cortex-$1") || return 1
+  echo "$bytes bytes, expected at most $2"
+  [ "$bytes" -le "$2" ]
+}
+
 # A library with floating point in it, which the proof of the symbols has to refuse.
 make_float_library() {
   echo 'extern "C" int bsm_scale(int x) { return static_cast<int>(static_cast<float>(x) * 1.5f); }' > "$out/float.cpp" &&
@@ -96,6 +104,17 @@ test_core() {
   add_row "cortex-$core" "$board" "$kernels" "$(last_hash "$core 256")" "$(last_hash "$core fast")" frame+rows "$result"
 }
 
+# A library with parts left out, which the folder's name says.
+test_small() {
+  local core=m4-small board=mps2-an386
+  expect "$core, build" build "$root" "$root/build/cortex-$core" "example-$board probe-$board" \
+    "-DCMAKE_TOOLCHAIN_FILE=$root/toolchains/cortex-m4.cmake" -DCMAKE_BUILD_TYPE=Release -DBSM_WERROR=ON -DBSM_LOCAL=OFF \
+    -DBSM_COLOR=OFF -DBSM_CONFIDENCE=OFF -DBSM_SCALAR=OFF -DBSM_TEXT=OFF || return
+  expect "$core, within 20 KB of flash" flash_within "$core" 20480
+  expect "$core, $board: the example's map is this computer's" example_map "$core" "$board" "$out/160/left.pgm" "$out/160/right.pgm"
+  expect "$core, $board: scalar kernels, refused" refuses "bsm: -45" on_board "$core" "$board" probe format=gray8 preset=fast scalar=1
+}
+
 # The hash that a core's last run gave.
 last_hash() { sed -nE 's/.*hash=0x([0-9a-f]+).*/\1/p' "$out/$1" 2> /dev/null | grep . || echo -; }
 
@@ -126,6 +145,8 @@ run_cortexm() {
     example_map m4 netduinoplus2 "$out/160/left.pgm" "$out/160/right.pgm"
   expect "m4, netduinoplus2: sgm, rows" gives_hash "fast gray8 refined left" dsp m4 netduinoplus2 probe format=gray8 preset=fast
   expect "m4, netduinoplus2: local, rows" gives_hash "256 rgb24 refined left" dsp m4 netduinoplus2 probe preset=paper bits=256
+  expect "m4, within 48 KB of flash" flash_within m4 49152
+  test_small
   test_core m7 mps2-an500 dsp
   test_core m33 mps2-an505 dsp
   test_core m55 mps3-an547 mve
