@@ -164,7 +164,7 @@ echo
 # The format comes first: presets depend on it.
 gray=(width=160 height=120 disparities=32 format=gray8)
 color=(width=160 height=120 disparities=32 format=rgb24)
-paper=("${color[@]}" preset=paper bits=256)
+paper=("${color[@]}" preset=paper bits=128)
 echo "| stack in bytes | bsm_open, by calls | a row, by calls | a frame, by calls | used by fast | used by paper |"
 echo "|---|---|---|---|---|---|"
 for core in "${cores[@]}"; do
@@ -182,7 +182,7 @@ cost() {
   awk -v instructions="$(value_of instructions <<< "$line")" -v arena="$(value_of arena <<< "$line")" \
     'BEGIN { printf " %.0f / %.0f |", instructions / 1e6, arena / 1024 }'
 }
-echo "| million instructions / arena in KB | fast, gray8, right_costs 1 | fast, gray8 | fast, rgb24, right_costs 1 | fast, rgb24 | paper, 256 bits, rgb24 |"
+echo "| million instructions / arena in KB | fast, gray8, right_costs 1 | fast, gray8 | fast, rgb24, right_costs 1 | fast, rgb24 | paper, 128 bits, rgb24 |"
 echo "|---|---|---|---|---|---|"
 for core in "${cores[@]}"; do
   row="| Cortex-${core^^} |"
