@@ -49,33 +49,18 @@ Bytes bisect(MaskScratch& scratch, int32_t bits) {
 
 Bytes search_evenly(MaskScratch& scratch, int32_t bits) {
   Bracket bracket{zero(), set8(-1)};
-  narrow<32>(scratch, bits, bracket);
-  narrow<4>(scratch, bits, bracket);
-  narrow<1>(scratch, bits, bracket);
+  narrow<5>(scratch, bits, bracket);
+  narrow<2>(scratch, bits, bracket);
+  narrow<0>(scratch, bits, bracket);
   return bracket.low;
-}
-
-// The kernel with a search of one's own.
-template <class Find>
-void find_masks(const MaskThresholdArgs& args, const Find& find) {
-  MaskScratch& scratch = *static_cast<MaskScratch*>(args.scratch);
-  scratch.points = &args.pattern.order->points;
-  for (int32_t x = 0; x < args.width; x += kLanes) {
-    const int32_t pixels = args.width - x < kLanes ? args.width - x : kLanes;
-    if (args.planes == 3) {
-      window_sad<3>(args, x, scratch);
-    } else {
-      window_sad<1>(args, x, scratch);
-    }
-    find(scratch, x, pixels);
-  }
 }
 
 // Words of the pairs from `first` on: bit x says that the pair of pixel x is within its threshold.
 void threshold_pairs(const MaskThresholdArgs& args, int32_t x, int32_t pixels, Bytes threshold, int32_t first, int32_t count,
                      MaskScratch& scratch) {
   const uint32_t* pairs = scratch.points->pairs + first;
-  for (int32_t i = 0; i < count; ++i) scratch.words[i] = signs(is_within(pair_weight(scratch, pairs[i]), threshold));
+  Word* const words = scratch.words[0];
+  for (int32_t i = 0; i < count; ++i) words[i] = signs(is_within(pair_weight(scratch, pairs[i]), threshold));
   const Word beyond = signs(both(equal8(threshold, set8(-1)), lanes_of(pixels)));
   for (int32_t pixel = 0; pixel < pixels; ++pixel) {
     if ((beyond >> pixel & 1) == 0) continue;
@@ -84,7 +69,7 @@ void threshold_pairs(const MaskThresholdArgs& args, int32_t x, int32_t pixels, B
     for (int32_t i = 0; i < count; ++i) {
       const bool within =
           scratch.exact_sad[(pairs[i] & 0xffff) / 8] <= exact && scratch.exact_sad[(pairs[i] >> 16) / 8] <= exact;
-      scratch.words[i] = within ? scratch.words[i] | bit : scratch.words[i] & ~bit;
+      words[i] = within ? words[i] | bit : words[i] & ~bit;
     }
   }
 }
@@ -94,29 +79,26 @@ void threshold_pairs(const MaskThresholdArgs& args, int32_t x, int32_t pixels, B
 void mask_threshold_by_pair_avx2(const MaskThresholdArgs& args) {
   static constexpr int32_t kInOrder[kLanes / 8] = {0, 1, 2, 3};
   const int32_t bits = args.pattern.bits;
-  find_masks(args, [&args, bits](MaskScratch& scratch, int32_t x, int32_t pixels) {
+  MaskScratch& scratch = begin_row(args);
+  for (int32_t x = 0; x < args.width; x += kLanes) {
+    const int32_t pixels = args.width - x < kLanes ? args.width - x : kLanes;
+    window_sad(args, x, scratch);
     const Bytes threshold = find_threshold(scratch, bits, lanes_of(pixels));
     for (int32_t first = 0; first < bits; first += kWordsAtOnce) {
       const int32_t count = bits - first < kWordsAtOnce ? bits - first : kWordsAtOnce;
       threshold_pairs(args, x, pixels, threshold, first, count, scratch);
       uint8_t* const out = args.out + (ptrdiff_t{x} * bits + first) / 8;
-      store_descriptors<false>(scratch.words, count, kInOrder, pixels, out, bits / 8);
+      store_descriptors<false>(scratch.words[0], count, kInOrder, pixels, out, bits / 8);
     }
-  });
+  }
 }
 
 void mask_by_bisection_avx2(const MaskThresholdArgs& args) {
-  find_masks(args, [&args](MaskScratch& scratch, int32_t x, int32_t pixels) {
-    threshold_points(args, x, pixels, bisect(scratch, args.pattern.bits), scratch);
-    store_masks(args, x, pixels, scratch);
-  });
+  threshold_masks(args, [&args](MaskScratch& scratch, int32_t) { return bisect(scratch, args.pattern.bits); });
 }
 
 void mask_by_even_steps_avx2(const MaskThresholdArgs& args) {
-  find_masks(args, [&args](MaskScratch& scratch, int32_t x, int32_t pixels) {
-    threshold_points(args, x, pixels, search_evenly(scratch, args.pattern.bits), scratch);
-    store_masks(args, x, pixels, scratch);
-  });
+  threshold_masks(args, [&args](MaskScratch& scratch, int32_t) { return search_evenly(scratch, args.pattern.bits); });
 }
 
 }  // namespace bsm::bench

@@ -1,7 +1,8 @@
 // mask_threshold for AVX2 and SSE4.2: kLanes neighbouring pixels at once, the way of mask_threshold_avx512.cpp.
 // A pass tries eight thresholds: bit j of a byte says that the SAD is within threshold j, a pair is one AND, and carry-save
-// adders count: 6 operations and 2 loads for 8 kLanes (pixel, threshold, pair) triples.
-// Include after the lanes of one instruction set.
+// adders count: 6 operations and 2 loads for 8 kLanes (pixel, threshold, pair) triples. Two passes find most T. A pair's
+// words of 64 pixels are one AND. Bound: three ALUs, so 2 cycles a pair, pass and kLanes pixels. Include after the lanes of
+// one instruction set.
 #ifndef BSM_SIMD_X86_MASK_THRESHOLD_LANES_H
 #define BSM_SIMD_X86_MASK_THRESHOLD_LANES_H
 
@@ -14,13 +15,14 @@ namespace {
 
 constexpr int32_t kHighLevels = 7;  // bits of a count from 64 on
 constexpr int32_t kWordsAtOnce = 512;
+constexpr int32_t kBlocks = 64 / kLanes;  // of pixels, whose words are made at once
 
 struct alignas(64) MaskScratch {
   uint8_t sad[kMaxPoints][kLanes];
   uint8_t within[kMaxPoints][kLanes];  // bit j: the SAD is within threshold j
   uint8_t high[kHighLevels][kLanes];
-  Word words[kWordsAtOnce];
-  uint64_t point_words[kMaxPoints];  // 8 bytes apart, as the numbers of points are
+  Word words[kBlocks][kWordsAtOnce];
+  Word point_words[kMaxPoints][kBlocks];  // 8 bytes apart, as the numbers of points are
   uint16_t exact_sad[kMaxPoints];
   uint16_t histogram[kMaxSad + 1];
   const PatternPoints* points;
@@ -29,6 +31,16 @@ struct alignas(64) MaskScratch {
 
 inline Bytes distance(Bytes a, Bytes b) {
   return sub8(max8(a, b), min8(a, b));
+}
+
+inline MaskScratch& begin_row(const MaskThresholdArgs& args) {
+  MaskScratch& scratch = *static_cast<MaskScratch*>(args.scratch);
+  scratch.points = &args.pattern.order->points;
+  const uint8_t* const* rows = args.rows + args.pattern.radius;
+  for (int32_t i = 0; i < scratch.points->count; ++i) {
+    scratch.at[i] = rows[scratch.points->points[i].dy] + scratch.points->points[i].dx;
+  }
+  return scratch;
 }
 
 template <int32_t kPlanes>
@@ -51,6 +63,14 @@ inline void window_sad(const MaskThresholdArgs& args, int32_t x, MaskScratch& sc
       sad = add8_saturated(sad, distance(center[plane], color[plane]));
     }
     store(scratch.sad[i], sad);
+  }
+}
+
+inline void window_sad(const MaskThresholdArgs& args, int32_t x, MaskScratch& scratch) {
+  if (args.planes == 3) {
+    window_sad<3>(args, x, scratch);
+  } else {
+    window_sad<1>(args, x, scratch);
   }
 }
 
@@ -124,76 +144,44 @@ inline Bytes count_failed(Bytes result) {
   return add8(low, look_up(zeros, both(right16<4>(result), set8(15))));
 }
 
-// Bytes within(d) of a pass, for differences d = 0..15 in units of the pass.
-struct Thresholds {
-  uint8_t within[16];
-};
-
-constexpr Thresholds make_thresholds(const int32_t (&limits)[8]) {
-  Thresholds table{};
-  for (int32_t d = 0; d < 16; ++d) {
-    for (int32_t j = 0; j < 8; ++j) {
-      if (d <= limits[j]) table.within[d] = static_cast<uint8_t>(table.within[d] | 1 << j);
-    }
-  }
-  return table;
-}
-
-constexpr Thresholds kFirst = make_thresholds({0, 1, 2, 3, 4, 6, 8, 12});  // units of 4, from 0
-constexpr Thresholds kEvery = make_thresholds({0, 1, 2, 3, 4, 5, 6, 7});
-constexpr Thresholds kEverySecond = make_thresholds({1, 3, 5, 7, 9, 11, 13, 15});
-constexpr uint8_t kFirstLow[16] = {0, 4, 8, 12, 16, 20, 28, 36, 52};
-constexpr uint8_t kFirstHigh[16] = {3, 7, 11, 15, 19, 27, 35, 51, 255};
+// Bytes within(d) of a pass, for differences d = 0..15 in units of the pass: bit j says d <= j.
+alignas(16) constexpr uint8_t kWithin[16] = {0xff, 0xfe, 0xfc, 0xf8, 0xf0, 0xe0, 0xc0, 0x80};
 
 struct Bracket {
   Bytes low, high;  // T is within, both included
 };
 
-inline Bracket first_bracket(MaskScratch& scratch, int32_t bits) {
-  const Bytes table = table16(kFirst.within);
-  for (int32_t i = 0; i < scratch.points->count; ++i) {
-    const Bytes sad = min8(load(scratch.sad[i]), set8(63));
-    store(scratch.within[i], look_up(table, both(right16<2>(sad), set8(15))));
-  }
-  const Bytes failed = count_failed(enough(scratch, bits));
-  return Bracket{look_up(table16(kFirstLow), failed), look_up(table16(kFirstHigh), failed)};
-}
-
-// One more pass with thresholds 1, 4 or 32 apart.
-template <int32_t kStep>
+// A pass with eight thresholds: each pixel's lower bound + (j << kShift) + (1 << kShift) - 1.
+template <int32_t kShift>
 inline void narrow(MaskScratch& scratch, int32_t bits, Bracket& bracket) {
-  const Bytes table = table16(kStep == 32 ? kEverySecond.within : kEvery.within);
-  for (int32_t i = 0; i < scratch.points->count; ++i) {
+  const Bytes table = table16(kWithin);
+  const int32_t count = scratch.points->count;
+  for (int32_t i = 0; i < count; ++i) {
     Bytes above = sub8_saturated(load(scratch.sad[i]), bracket.low);
-    if (kStep == 1) above = min8(above, set8(15));
-    if (kStep == 4) above = both(right16<2>(min8(above, set8(63))), set8(15));
-    if (kStep == 32) above = both(right16<4>(above), set8(15));
+    if (kShift < 4) above = min8(above, set8((16 << kShift) - 1));
+    if (kShift != 0) above = both(right16<kShift>(above), set8(0xff >> kShift));
     store(scratch.within[i], look_up(table, above));
   }
   const Bytes failed = count_failed(enough(scratch, bits));
-  Bytes rise = failed;
-  if (kStep == 4) rise = left16<2>(failed);
-  if (kStep == 32) rise = left16<5>(min8(failed, set8(7)));  // the last threshold is above every SAD
-  bracket.low = add8_saturated(bracket.low, rise);
-  const Bytes top = min8(bracket.high, add8_saturated(bracket.low, set8(kStep - 1)));
+  bracket.low = add8_saturated(bracket.low, kShift == 0 ? failed : left16<kShift>(failed));
+  const Bytes top = min8(bracket.high, add8_saturated(bracket.low, set8((1 << kShift) - 1)));
   bracket.high = choose(top, bracket.high, equal8(failed, set8(8)));
 }
 
-// T of kLanes pixels; 255 stands for anything from 255 up. Only the pixels whose bytes in `wanted` are set count.
+// T of kLanes pixels; 255 stands for anything from 255 up. Only the pixels whose bytes in `wanted` are set count. Two passes
+// find T below 64, where most are; each 64 more take one more.
 inline Bytes find_threshold(MaskScratch& scratch, int32_t bits, Bytes wanted) {
-  Bracket bracket = first_bracket(scratch, bits);
+  Bracket bracket{zero(), set8(-1)};
   for (;;) {
     const Bytes width = both(sub8(bracket.high, bracket.low), wanted);
     const auto all_within = [width](int32_t most) {
       return signs(equal8(sub8_saturated(width, set8(most)), zero())) == static_cast<Word>(-1);
     };
     if (all_within(0)) return bracket.low;
-    if (all_within(16)) {
-      narrow<1>(scratch, bits, bracket);
-    } else if (all_within(35)) {
-      narrow<4>(scratch, bits, bracket);
+    if (all_within(7)) {
+      narrow<0>(scratch, bits, bracket);
     } else {
-      narrow<32>(scratch, bits, bracket);
+      narrow<3>(scratch, bits, bracket);
     }
   }
 }
@@ -206,26 +194,43 @@ inline Bytes lanes_of(int32_t pixels) {
 }
 
 // Words of the points: bit x says that the SAD of pixel x is within its threshold.
-inline void threshold_points(const MaskThresholdArgs& args, int32_t x, int32_t pixels, Bytes threshold,
+inline void threshold_points(const MaskThresholdArgs& args, int32_t x, int32_t block, int32_t pixels, Bytes threshold,
                              MaskScratch& scratch) {
-  for (int32_t i = 0; i < scratch.points->count; ++i) {
+  const int32_t count = scratch.points->count;
+  for (int32_t i = 0; i < count; ++i) {
     const Bytes sad = load(scratch.sad[i]);
-    scratch.point_words[i] = signs(equal8(min8(sad, threshold), sad));
+    scratch.point_words[i][block] = signs(equal8(min8(sad, threshold), sad));
   }
   const Word beyond = signs(both(equal8(threshold, set8(-1)), lanes_of(pixels)));
   for (int32_t pixel = 0; pixel < pixels; ++pixel) {
     if ((beyond >> pixel & 1) == 0) continue;
     const uint32_t exact = exact_threshold(args, x + pixel, *scratch.points, scratch.exact_sad, scratch.histogram);
-    const uint64_t bit = uint64_t{1} << pixel;
-    for (int32_t i = 0; i < scratch.points->count; ++i) {
-      const uint64_t word = scratch.point_words[i];
-      scratch.point_words[i] = scratch.exact_sad[i] <= exact ? word | bit : word & ~bit;
+    const Word bit = static_cast<Word>(Word{1} << pixel);
+    for (int32_t i = 0; i < count; ++i) {
+      Word& word = scratch.point_words[i][block];
+      word = static_cast<Word>(scratch.exact_sad[i] <= exact ? word | bit : word & ~bit);
     }
   }
 }
 
-// The pairs' words, each one AND of two points' words, as the masks of the pixels from x on.
-inline void store_masks(const MaskThresholdArgs& args, int32_t x, int32_t pixels, MaskScratch& scratch) {
+// Words of the next pairs, of all blocks.
+BSM_NOINLINE void pair_words(MaskScratch& scratch, const uint32_t* pairs, int32_t count) {
+  const uint8_t* points = reinterpret_cast<const uint8_t*>(scratch.point_words);
+  for (int32_t i = 0; i < count; ++i) {
+    const uint32_t pair = pairs[i];
+    uint64_t p, q;
+    BSM_MEMCPY(&p, points + (pair & 0xffff), sizeof p);
+    BSM_MEMCPY(&q, points + (pair >> 16), sizeof q);
+    const uint64_t words = p & q;
+    BSM_UNROLL
+    for (int32_t block = 0; block < kBlocks; ++block) {
+      scratch.words[block][i] = static_cast<Word>(words >> (kLanes * block));
+    }
+  }
+}
+
+// The masks of the blocks from x on.
+inline void store_masks(const MaskThresholdArgs& args, int32_t x, MaskScratch& scratch) {
   static constexpr int32_t kInOrder[4] = {0, 1, 2, 3};
   int32_t byte_of[kLanes / 8];
   for (int32_t i = 0; i < kLanes / 8; ++i) byte_of[i] = kInOrder[i];
@@ -233,36 +238,32 @@ inline void store_masks(const MaskThresholdArgs& args, int32_t x, int32_t pixels
   const ptrdiff_t bytes = bits / 8;
   for (int32_t first = 0; first < bits; first += kWordsAtOnce) {
     const int32_t count = bits - first < kWordsAtOnce ? bits - first : kWordsAtOnce;
-    const uint8_t* words = reinterpret_cast<const uint8_t*>(scratch.point_words);
-    for (int32_t i = 0; i < count; ++i) {
-      const uint32_t pair = scratch.points->pairs[first + i];
-      Word p, q;
-      BSM_MEMCPY(&p, words + (pair & 0xffff), sizeof p);
-      BSM_MEMCPY(&q, words + (pair >> 16), sizeof q);
-      scratch.words[i] = static_cast<Word>(p & q);
+    pair_words(scratch, scratch.points->pairs + first, count);
+    for (int32_t block = 0, begin = x; block < kBlocks && begin < args.width; ++block, begin += kLanes) {
+      uint8_t* const out = args.out + begin * bytes + first / 8;
+      store_descriptors<false>(scratch.words[block], count, byte_of, args.width - begin, out, bytes);
     }
-    store_descriptors<false>(scratch.words, count, byte_of, pixels, args.out + x * bytes + first / 8, bytes);
+  }
+}
+
+// Finds the SADs of each block of pixels, then find(scratch, pixels) their thresholds, then their masks.
+template <class Find>
+inline void threshold_masks(const MaskThresholdArgs& args, const Find& find) {
+  MaskScratch& scratch = begin_row(args);
+  for (int32_t x = 0; x < args.width; x += kLanes * kBlocks) {
+    for (int32_t block = 0, begin = x; block < kBlocks && begin < args.width; ++block, begin += kLanes) {
+      const int32_t pixels = args.width - begin < kLanes ? args.width - begin : kLanes;
+      window_sad(args, begin, scratch);
+      threshold_points(args, begin, block, pixels, find(scratch, pixels), scratch);
+    }
+    store_masks(args, x, scratch);
   }
 }
 
 inline void threshold_masks(const MaskThresholdArgs& args) {
-  MaskScratch& scratch = *static_cast<MaskScratch*>(args.scratch);
-  scratch.points = &args.pattern.order->points;
-  const uint8_t* const* rows = args.rows + args.pattern.radius;
-  for (int32_t i = 0; i < scratch.points->count; ++i) {
-    scratch.at[i] = rows[scratch.points->points[i].dy] + scratch.points->points[i].dx;
-  }
-  for (int32_t x = 0; x < args.width; x += kLanes) {
-    const int32_t pixels = args.width - x < kLanes ? args.width - x : kLanes;
-    if (args.planes == 3) {
-      window_sad<3>(args, x, scratch);
-    } else {
-      window_sad<1>(args, x, scratch);
-    }
-    const Bytes threshold = find_threshold(scratch, args.pattern.bits, lanes_of(pixels));
-    threshold_points(args, x, pixels, threshold, scratch);
-    store_masks(args, x, pixels, scratch);
-  }
+  threshold_masks(args, [bits = args.pattern.bits](MaskScratch& scratch, int32_t pixels) {
+    return find_threshold(scratch, bits, lanes_of(pixels));
+  });
 }
 
 }  // namespace
