@@ -40,12 +40,14 @@ const char* number_of(int32_t status) {
 }  // namespace
 }  // namespace bsm
 
+using namespace bsm;
+
 extern "C" const char* bsm_version(void) {
   return BSM_VERSION_TEXT(BSM_VERSION_MAJOR, BSM_VERSION_MINOR, BSM_VERSION_PATCH);
 }
 
 extern "C" const char* bsm_status_string(bsm_status status) {
-  if (!bsm::kHasText) return bsm::number_of(status);
+  if (!kHasText) return number_of(status);
   switch (status) {
     case BSM_OK:
       return "done";

@@ -48,6 +48,13 @@
 #define BSM_ARCH_DSP 0
 #endif
 
+// WebAssembly's vectors of 128 bits: a module that holds them runs on no engine without.
+#if defined(__wasm_simd128__)
+#define BSM_ARCH_SIMD128 1
+#else
+#define BSM_ARCH_SIMD128 0
+#endif
+
 // SVE: on Linux and Android, which report it.
 #if BSM_ARCH_NEON && defined(__aarch64__) && defined(__linux__)
 #define BSM_ARCH_SVE 1

@@ -1,4 +1,5 @@
-// Machines without a detection file of their own: no extension beyond the base instruction set.
+// Machines without a detection file of their own: no extension beyond the base instruction set and what the compiler
+// targets.
 #include "platform/compiler.h"
 #include "platform/cpu.h"
 
@@ -6,7 +7,7 @@ namespace bsm {
 
 #if !BSM_ARCH_X86 && !BSM_ARCH_ARM
 uint32_t cpu_features() {
-  return 0;
+  return BSM_ARCH_SIMD128 ? uint32_t{kCpuSimd128} : 0;
 }
 #endif
 

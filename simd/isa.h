@@ -16,6 +16,7 @@ constexpr uint32_t kIsaAvx512 = kIsaAvx2 | kCpuAvx512 | kCpuAvx512Vbmi | kCpuAvx
 constexpr uint32_t kIsaNeon = kCpuNeon;
 constexpr uint32_t kIsaDsp = kCpuArmDsp;
 constexpr uint32_t kIsaMve = kCpuArmDsp | kCpuMve;
+constexpr uint32_t kIsaSimd128 = kCpuSimd128;
 constexpr uint32_t kIsaSve = kIsaNeon | kCpuSve;
 
 }  // namespace bsm

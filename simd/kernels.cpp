@@ -36,9 +36,10 @@ constexpr bool is_built(StageIndex stage) {
   }
 }
 
-// Kernels that read Pattern::order: those of x86.
+// Kernels that read Pattern::order: those of x86 and of WebAssembly.
 constexpr bool reads_order(StageIndex stage, uint32_t required) {
-  return (stage == descriptor_compare_index || stage == mask_threshold_index) && (required & kIsaSse42) == kIsaSse42;
+  return (stage == descriptor_compare_index || stage == mask_threshold_index) &&
+         ((required & kIsaSse42) == kIsaSse42 || required == kIsaSimd128);
 }
 
 // True for a scalar kernel whose stage has another one, in a build that leaves it out.

@@ -1,7 +1,7 @@
 // Makes the order of a pattern: sorts its pairs by the points that they share.
 #include "simd/pattern_order.h"
 
-#if BSM_ARCH_X86_64
+#if BSM_ARCH_X86_64 || BSM_ARCH_SIMD128
 #include "simd/pattern_points.h"
 
 namespace bsm {

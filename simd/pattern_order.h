@@ -49,7 +49,7 @@ struct PatternOrder {
 constexpr int32_t kTripleGroup = 32;
 
 // Kernels of these machines read Pattern::order.
-constexpr bool kOrdersPatterns = BSM_ARCH_X86_64;
+constexpr bool kOrdersPatterns = BSM_ARCH_X86_64 || BSM_ARCH_SIMD128;
 
 // Bytes of a pattern's order, and the order made there, 8-byte aligned.
 uint64_t pattern_order_bytes(int32_t bits);

@@ -127,8 +127,8 @@ struct Row {
     for (; cost < end; cost += kAtOnce) vst1q_u16(cost, vdupq_n_u16(kNoCost));
   }
 
-  // Costs of `count` vectors of levels of a pixel whose others lie in the row, those of the first from `other` on.
-  inline void cost_vectors(const uint8_t* own, const uint8_t* mask, const uint8_t* other, int32_t count,
+  // Costs of `vectors` vectors of levels of a pixel whose others lie in the row, those of the first from `other` on.
+  inline void cost_vectors(const uint8_t* own, const uint8_t* mask, const uint8_t* other, int32_t vectors,
                            uint16_t* cost) const {
     constexpr int32_t kAdvance = kLeft ? -kAtOnce : kAtOnce;
     if constexpr (kBytes != 0) {  // the pixel's own bits stay in registers
@@ -136,15 +136,16 @@ struct Row {
       constexpr ptrdiff_t kStride = kLeft ? -kBytes : kBytes;
       const Own<kVectors> bits = load_own<kVectors>(own, mask);
       if (kLeft) other += (kAtOnce - 1) * kBytes;
-      for (; count >= 2; count -= 2, cost += 2 * kAtOnce, other += 2 * kAdvance * kBytes) {
-        const uint16x8_t first = bsm::count<kVectors>(bits, other, kStride);
-        const uint16x8_t second = bsm::count<kVectors>(bits, other + kAdvance * kBytes, kStride);
+      for (; vectors >= 2; vectors -= 2, cost += 2 * kAtOnce, other += 2 * kAdvance * kBytes) {
+        const uint16x8_t first = count<kVectors>(bits, other, kStride);
+        const uint16x8_t second = count<kVectors>(bits, other + kAdvance * kBytes, kStride);
         vst1q_u16(cost, first);
         vst1q_u16(cost + kAtOnce, second);
       }
-      if (count != 0) vst1q_u16(cost, bsm::count<kVectors>(bits, other, kStride));
+      if (vectors != 0) vst1q_u16(cost, count<kVectors>(bits, other, kStride));
     } else {
-      for (; count != 0; --count, cost += kAtOnce, other += kAdvance * bytes) vst1q_u16(cost, eight_costs(own, mask, other));
+      for (; vectors != 0; --vectors, cost += kAtOnce, other += kAdvance * bytes)
+        vst1q_u16(cost, eight_costs(own, mask, other));
     }
   }
 

@@ -89,8 +89,8 @@ BSM_INLINE Bytes add_bits(Counter& counter, Bytes a, Bytes b) {
 
 BSM_INLINE Bytes pair_within(const MaskScratch& scratch, uint32_t pair) {
   const uint8_t* within = scratch.within[0];
-  constexpr int32_t kScale = kLanes / 8;
-  return both(load(within + kScale * ptrdiff_t{pair & 0xffff}), load(within + kScale * ptrdiff_t{pair >> 16}));
+  constexpr uint32_t kScale = kLanes / 8;
+  return both(load(within + kScale * (pair & 0xffff)), load(within + kScale * (pair >> 16)));
 }
 
 template <int32_t kLevel>

@@ -15,9 +15,11 @@ constexpr SceneMemory kMemory{left, right, map, arena, sizeof arena};
 
 #define EXPORT(name) extern "C" __attribute__((export_name(#name)))
 
-// The hash that a method gives, by rows or of the frame at once; 0 when the library reports an error.
-EXPORT(scene_hash) uint64_t scene_hash(int32_t method, int32_t by_rows) {
-  const bsm_config config = scene_config(static_cast<bsm_method>(method));
+// The hash that a method gives with the kernels that isa_mask allows, by rows or of the frame at once; 0 when the library
+// reports an error.
+EXPORT(scene_hash) uint64_t scene_hash(int32_t method, int32_t by_rows, uint32_t isa_mask) {
+  bsm_config config = scene_config(static_cast<bsm_method>(method));
+  config.isa_mask = isa_mask;
   uint64_t hash = 0;
   (by_rows != 0 ? hash_scene_rows : hash_scene_frame)(config, kMemory, &hash);
   return hash;
@@ -28,10 +30,11 @@ EXPORT(golden_hash) uint64_t golden_hash(int32_t method) {
   return golden_scene_hash(static_cast<bsm_method>(method));
 }
 
-// Name of the kernel that a method's costs come from, as text that ends with a zero.
-EXPORT(kernel_name) const char* kernel_name(int32_t method) {
-  const bsm_config config = scene_config(static_cast<bsm_method>(method));
+// Name of the kernel that makes the masks, as text that ends with a zero.
+EXPORT(kernel_name) const char* kernel_name(uint32_t isa_mask) {
+  bsm_config config = scene_config(BSM_METHOD_SGM);
+  config.isa_mask = isa_mask;
   bsm_context* context = nullptr;
   if (bsm_open(&config, arena, sizeof arena, &context) != BSM_OK) return "";
-  return bsm_kernel_name(context, method == BSM_METHOD_LOCAL ? BSM_KERNEL_MATCH : BSM_KERNEL_COST);
+  return bsm_kernel_name(context, BSM_KERNEL_MASK);
 }
