@@ -159,7 +159,7 @@ for entry in "aarch64-linux-gnu cortex-a53" "arm-linux-gnueabihf cortex-a7"; do
   echo "-- against the number of bits"
   for bits in 64 128 256 512 1024; do print_frame "$target" "$cpu" "sgm $bits" --preset balanced --bits $bits; done
   for bits in 256 512 1024 2048 4096; do
-    print_frame "$target" "$cpu" "local $bits" --preset balanced --method local --bits $bits
+    print_frame "$target" "$cpu" "local $bits" --preset local --bits $bits
   done
 done
 

@@ -6,8 +6,9 @@
 namespace bsm::bench {
 namespace {
 
-constexpr bsm_preset kPresets[] = {BSM_PRESET_PAPER, BSM_PRESET_FAST, BSM_PRESET_BALANCED, BSM_PRESET_BEST};
-constexpr const char* kPresetNames[] = {"paper", "fast", "balanced", "best"};
+constexpr bsm_preset kPresets[] = {BSM_PRESET_PAPER, BSM_PRESET_LOCAL, BSM_PRESET_FAST, BSM_PRESET_BALANCED,
+                                   BSM_PRESET_BEST};
+constexpr const char* kPresetNames[] = {"paper", "fast", "balanced", "best", "local"};  // by value
 
 bsm_config make(bsm_preset preset, bool gray) {
   bsm_config config{};
@@ -34,8 +35,7 @@ Configuration preset_configuration(bsm_preset preset, bool gray) {
 }
 
 Configuration local_configuration(int32_t bits, bool gray) {
-  Configuration result{"", make(BSM_PRESET_BALANCED, gray)};
-  result.config.method = BSM_METHOD_LOCAL;
+  Configuration result{"", make(BSM_PRESET_LOCAL, gray)};
   result.config.bits = bits;
   result.name = describe(result.config);
   return result;

@@ -68,7 +68,9 @@ BSM_NOINLINE uint64_t arena_bytes(const bsm_config& config, const Kernels& kerne
 Pattern pattern_of(const bsm_context& context) {
   PixelPair* pairs = reinterpret_cast<PixelPair*>(context.arena + context.plan.pairs);
   const bsm_config& config = context.config;
-  Pattern pattern = has_sgm_pattern(config) ? sgm_pattern(config.bits, pairs) : local_pattern(config.bits, pairs);
+  Pattern pattern = has_sgm_pattern(config) ? sgm_pattern(config.bits, pairs)
+                    : config.sigma == 3     ? narrow_pattern(config.bits, pairs)
+                                            : local_pattern(config.bits, pairs);
   if constexpr (kOrdersPatterns) {
     if (context.kernels.ordered) pattern.order = make_pattern_order(pattern, context.arena + context.plan.order);
   }

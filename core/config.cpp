@@ -30,6 +30,7 @@ constexpr Range kRanges[] = {
     BSM_RANGE(min_disparity, BSM_MIN_DISPARITY, BSM_MAX_DISPARITY, BSM_ERROR_MIN_DISPARITY),
     BSM_RANGE(method, kHasLocal ? BSM_METHOD_LOCAL : BSM_METHOD_SGM, kHasSgm ? BSM_METHOD_SGM : BSM_METHOD_LOCAL,
               BSM_ERROR_METHOD),
+    BSM_RANGE(sigma, 3, 4, BSM_ERROR_SIGMA),
     // The stages before the aggregation are the local method's.
     BSM_RANGE(stage, kHasLocal ? BSM_STAGE_COST : BSM_STAGE_AGGREGATED,
               kHasRefinement ? BSM_STAGE_REFINED : BSM_STAGE_CHECKED, BSM_ERROR_STAGE),
@@ -124,17 +125,19 @@ extern "C" bsm_status bsm_config_init(bsm_config* config, int32_t width, int32_t
 
 extern "C" bsm_status bsm_config_preset(bsm_config* config, bsm_preset preset) {
   if (config == nullptr) return BSM_ERROR_NULL;
-  if (preset < BSM_PRESET_PAPER || preset > BSM_PRESET_BEST) return BSM_ERROR_PRESET;
+  if (preset < BSM_PRESET_PAPER || preset > BSM_PRESET_LOCAL) return BSM_ERROR_PRESET;
   const bool paper = preset == BSM_PRESET_PAPER;
   const bool best = preset == BSM_PRESET_BEST;
+  const bool local = preset == BSM_PRESET_LOCAL;
   const bool gray = !paper && config->format == BSM_FORMAT_GRAY8;  // luma alone tells less: its differences weigh more
   const bool few_gray = gray && preset == BSM_PRESET_FAST;         // the least to go by: surfaces may change more freely
-  config->method = paper ? BSM_METHOD_LOCAL : BSM_METHOD_SGM;
+  config->method = paper || local ? BSM_METHOD_LOCAL : BSM_METHOD_SGM;
   switch (preset) {
     case BSM_PRESET_FAST:
       config->bits = 128;
       break;
     case BSM_PRESET_BALANCED:
+    case BSM_PRESET_LOCAL:
       config->bits = 256;
       break;
     case BSM_PRESET_BEST:
@@ -143,6 +146,7 @@ extern "C" bsm_status bsm_config_preset(bsm_config* config, bsm_preset preset) {
     default:
       config->bits = BSM_MAX_BITS;
   }
+  config->sigma = paper ? 4 : 3;
   config->paths = best ? 8 : 4;
   config->p1 = best ? 60 : 160;  // more paths add up to more smoothness
   config->p2 = best || few_gray ? 600 : 1000;
@@ -151,16 +155,16 @@ extern "C" bsm_status bsm_config_preset(bsm_config* config, bsm_preset preset) {
   config->right_costs = BSM_RIGHT_COSTS_OWN;
   config->subpixel = paper ? 0 : 1;
   config->lr_tolerance = 1;
-  config->speckle = 0;  // no gain where masked costs are aggregated
+  config->speckle = local ? 10 : 0;  // no gain where masked costs are aggregated
   config->border = paper ? 0 : 1;
   config->vote_radius = 24;
-  config->vote_step = paper ? 1 : 6;
-  config->vote_color = gray ? 4 : 9;
-  config->vote_distance = paper ? 16 : 10;
+  config->vote_step = paper ? 1 : local ? 4 : 6;
+  config->vote_color = local ? (gray ? 2 : 3) : gray ? 4 : 9;  // more holes to fill: the vote keeps closer to its pixel
+  config->vote_distance = paper ? 16 : local ? 7 : 10;
   config->vote_cap = paper ? 0 : 1;
   config->smooth_radius = best ? 5 : 4;
   config->smooth_passes = paper ? 0 : 3;
-  config->smooth_color = gray ? 3 : 6;
+  config->smooth_color = gray ? (local ? 4 : 3) : 6;
   config->smooth_distance = 7;
   config->median = 1;
   return BSM_OK;

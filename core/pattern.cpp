@@ -12,6 +12,9 @@ namespace {
 constexpr uint16_t kSigma4[kLocalRadius] = {12953, 25124, 35873, 44792, 51748, 56845,
                                             60355, 62626, 64008, 64797, 65221, 65435};
 
+// P(|X| < k + 1 given |X| < 11) in 2^-16 for sigma 3, k = 0..9.
+constexpr uint16_t kSigma3[kNarrowRadius] = {17117, 32449, 44752, 53594, 59287, 62569, 64265, 65050, 65375, 65496};
+
 // P(|X| < k + 1 given |X| < 9) in 2^-16 for sigma 2.5, k = 0..7.
 constexpr uint16_t kSigma2_5[kSgmRadius] = {20378, 37780, 50470, 58372, 62574, 64482, 65222, 65467};
 
@@ -55,6 +58,10 @@ Pattern make_pattern(const uint16_t* distribution, int32_t radius, int32_t bits,
 
 Pattern local_pattern(int32_t bits, PixelPair* pairs) {
   return make_pattern(kSigma4, kLocalRadius, bits, pairs);
+}
+
+Pattern narrow_pattern(int32_t bits, PixelPair* pairs) {
+  return make_pattern(kSigma3, kNarrowRadius, bits, pairs);
 }
 
 Pattern sgm_pattern(int32_t bits, PixelPair* pairs) {

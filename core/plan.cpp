@@ -55,7 +55,7 @@ bool is_refined(const bsm_config& config) {
 // Stages that run and their radii.
 void plan_stages(const bsm_config& config, Plan* plan) {
   const bool refined = is_refined(config);
-  plan->pattern_radius = has_sgm_pattern(config) ? kSgmRadius : kLocalRadius;
+  plan->pattern_radius = has_sgm_pattern(config) ? kSgmRadius : config.sigma == 3 ? kNarrowRadius : kLocalRadius;
   plan->speckle_radius = refined && config.speckle != 0 ? kSpeckleRadius : 0;
   plan->border_radius = refined && config.border != 0 ? kBorderRadius : 0;
   plan->vote_radius = refined ? config.vote_radius : 0;

@@ -11,7 +11,7 @@ namespace bsm {
 namespace {
 
 // The number of every status as text, for builds without text.
-constexpr int32_t kFirstStatus = BSM_ERROR_ISA;
+constexpr int32_t kFirstStatus = BSM_ERROR_SIGMA;
 constexpr int32_t kStatuses = BSM_END - kFirstStatus + 1;
 
 struct Numbers {
@@ -127,6 +127,8 @@ extern "C" const char* bsm_status_string(bsm_status status) {
       return "the arena is smaller than bsm_memory_required says";
     case BSM_ERROR_CONTEXT:
       return "the pointer is not an open context";
+    case BSM_ERROR_SIGMA:
+      return "sigma is neither 3 nor 4";
     case BSM_ERROR_STRIDE:
       return "a stride is shorter than a row, so that rows would overlap";
     case BSM_ERROR_ALIGNMENT:

@@ -74,6 +74,7 @@ bsm_config read_config(Input& input) {
   config.num_disparities = small ? input.near(1, 20) : input.near(1, 4094);
   const int32_t words = small ? input.near(1, 4) : input.near(1, 64);
   config.bits = words > 1000 || words < -1000 ? words : 64 * words;
+  config.sigma = input.near(3, 4);
   config.stage = input.near(0, BSM_STAGE_REFINED);
   config.right_map = input.near(0, 1);
   config.confidence = input.near(0, 1);

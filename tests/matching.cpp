@@ -126,6 +126,7 @@ std::string describe(const bsm_config& c) {
   add("confidence", c.confidence);
   add("method", c.method);
   add("bits", c.bits);
+  if (c.method == BSM_METHOD_LOCAL) add("sigma", c.sigma);
   if (c.method == BSM_METHOD_SGM) {
     add("paths", c.paths);
     add("p1", c.p1);
@@ -194,6 +195,7 @@ void randomize(Rng& rng, bsm_config& config, bool whole_frame) {
   config.method = whole_frame || rng.one_in(2) ? BSM_METHOD_SGM : BSM_METHOD_LOCAL;
   config.stage = config.method == BSM_METHOD_SGM ? rng.range(BSM_STAGE_COST, BSM_STAGE_REFINED) : kStages[rng.range(0, 3)];
   if (rng.one_in(2)) config.stage = BSM_STAGE_REFINED;  // what most of the fields below act on
+  config.sigma = rng.range(3, 4);
   config.paths = whole_frame ? 8 : rng.range(3, 5);
   config.p1 = rng.range(1, 2000);
   config.p2 = rng.range(config.p1, 16384);

@@ -244,7 +244,9 @@ ModelView model_view(const ColorImage& image, bool gray) {
 ModelMatches model_matches(const bsm_config& config, const ModelView& left_view, const ModelView& right_view) {
   const bool sgm = config.method == BSM_METHOD_SGM;
   std::vector<PixelPair> pairs(static_cast<size_t>(config.bits));
-  const Pattern pattern = sgm ? sgm_pattern(config.bits, pairs.data()) : local_pattern(config.bits, pairs.data());
+  const Pattern pattern = sgm                 ? sgm_pattern(config.bits, pairs.data())
+                          : config.sigma == 3 ? narrow_pattern(config.bits, pairs.data())
+                                              : local_pattern(config.bits, pairs.data());
   const Described left = describe_view(left_view, pattern), right = describe_view(right_view, pattern);
   const size_t pixels = left_view.colors.size();
   ModelMatches matches;

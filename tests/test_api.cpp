@@ -160,6 +160,7 @@ std::vector<Mistake> config_mistakes() {
     c.method = BSM_METHOD_SGM;
     c.bits = BSM_MAX_SGM_BITS + 64;
   });
+  add_field_mistakes(list, "sigma", BSM_ERROR_SIGMA, &bsm_config::sigma, {2, 5, 0, -3, kMost, kLeast});
   add_field_mistakes(list, "method", BSM_ERROR_METHOD, &bsm_config::method, {-1, 1000, kMost, kLeast});
   add_field_mistakes(list, "stage", BSM_ERROR_STAGE, &bsm_config::stage, {-1, BSM_STAGE_AGGREGATED, 1000, kMost, kLeast});
   add_field_mistakes(list, "format", BSM_ERROR_FORMAT, &bsm_config::format, {-1, 1000, kMost, kLeast});
@@ -499,7 +500,7 @@ TEST_CASE(every_status_has_a_call_that_produces_it) {
     seen.insert(status);
   }
   const auto unreachable = unreachable_statuses();
-  for (int value = BSM_ERROR_ISA; value <= BSM_END; ++value) {
+  for (int value = BSM_ERROR_SIGMA; value <= BSM_END; ++value) {
     const bsm_status status = static_cast<bsm_status>(value);
     const Scope scope("status " + text_of(value));
     if (const auto it = unreachable.find(status); it != unreachable.end()) {
@@ -529,6 +530,7 @@ TEST_CASE(extremes_of_every_field_are_accepted) {
     accepted([size](bsm_config& c) { c.height = size; });
   }
   for (int bits = BSM_MIN_BITS; bits <= BSM_MAX_BITS; bits += 64) accepted([bits](bsm_config& c) { c.bits = bits; });
+  for (const int sigma : {3, 4}) accepted([sigma](bsm_config& c) { c.sigma = sigma; });
   for (const int tolerance : {0, 255}) accepted([tolerance](bsm_config& c) { c.lr_tolerance = tolerance; });
   for (const int radius : {1, BSM_MAX_VOTE_RADIUS}) accepted([radius](bsm_config& c) { c.vote_radius = radius; });
   for (const int divisor : {1, 64}) {
@@ -579,7 +581,8 @@ TEST_CASE(defaults) {
 }
 
 TEST_CASE(presets_keep_what_is_not_theirs) {
-  for (const bsm_preset preset : {BSM_PRESET_PAPER, BSM_PRESET_FAST, BSM_PRESET_BALANCED, BSM_PRESET_BEST}) {
+  for (const bsm_preset preset :
+       {BSM_PRESET_PAPER, BSM_PRESET_FAST, BSM_PRESET_BALANCED, BSM_PRESET_BEST, BSM_PRESET_LOCAL}) {
     const Scope scope("preset " + text_of(preset));
     bsm_config config = config_for(77, 55, BSM_FORMAT_GRAY8);
     config.min_disparity = -3;
@@ -592,7 +595,8 @@ TEST_CASE(presets_keep_what_is_not_theirs) {
     CHECK(config.width == 77 && config.height == 55 && config.format == BSM_FORMAT_GRAY8 && config.min_disparity == -3);
     CHECK(config.num_disparities == 20 && config.stage == BSM_STAGE_CHECKED && config.right_map == 1);
     CHECK(config.max_jobs == 5 && config.isa_mask == 0);
-    CHECK_EQ(config.method, static_cast<int32_t>(preset == BSM_PRESET_PAPER ? BSM_METHOD_LOCAL : BSM_METHOD_SGM));
+    const bool local = preset == BSM_PRESET_PAPER || preset == BSM_PRESET_LOCAL;
+    CHECK_EQ(config.method, static_cast<int32_t>(local ? BSM_METHOD_LOCAL : BSM_METHOD_SGM));
     size_t bytes = 0;
     CHECK_EQ(bsm_memory_required(&config, &bytes), BSM_OK);
   }
@@ -608,14 +612,14 @@ TEST_CASE(invalid_disparity_is_below_the_range) {
 
 TEST_CASE(status_strings_are_sentences_of_their_own) {
   std::set<std::string> sentences;
-  for (int value = BSM_ERROR_ISA; value <= BSM_END; ++value) {
+  for (int value = BSM_ERROR_SIGMA; value <= BSM_END; ++value) {
     const char* text = bsm_status_string(static_cast<bsm_status>(value));
     REQUIRE(text != nullptr);
     const Scope scope("status " + text_of(value) + " '" + text + "'");
     CHECK(std::strlen(text) > 1);
     CHECK(sentences.insert(text).second);
   }
-  for (const int value : {BSM_ERROR_ISA - 1, BSM_END + 1}) {
+  for (const int value : {BSM_ERROR_SIGMA - 1, BSM_END + 1}) {
     CHECK(bsm_status_string(static_cast<bsm_status>(value)) != nullptr);
   }
 }

@@ -213,9 +213,18 @@ TEST_CASE(presets) {
   }
 }
 
+TEST_CASE(local_preset) {
+  for (const bsm_format format : {BSM_FORMAT_RGB24, BSM_FORMAT_GRAY8}) {
+    bsm_config config = scene_config(64, format, 0);
+    REQUIRE_EQ(bsm_config_preset(&config, BSM_PRESET_LOCAL), BSM_OK);
+    config.confidence = 1;
+    check_maps(std::string("local ") + format_name(format) + " refined", config, encode(scene(0), format));
+  }
+}
+
 TEST_CASE(jobs_rows_and_kernels_have_the_same_hash) {
   const EncodedPair pair = encode(scene(0), BSM_FORMAT_RGB24);
-  for (const bsm_preset preset : {BSM_PRESET_PAPER, BSM_PRESET_FAST, BSM_PRESET_BEST}) {
+  for (const bsm_preset preset : {BSM_PRESET_PAPER, BSM_PRESET_FAST, BSM_PRESET_BEST, BSM_PRESET_LOCAL}) {
     bsm_config config = scene_config(256, BSM_FORMAT_RGB24, 0);
     REQUIRE_EQ(bsm_config_preset(&config, preset), BSM_OK);
     config.bits = 256;

@@ -157,7 +157,7 @@ TEST_CASE(size_targets) {
 }
 
 TEST_CASE(size_does_not_grow_with_height) {
-  for (const bsm_preset preset : {BSM_PRESET_PAPER, BSM_PRESET_FAST, BSM_PRESET_BALANCED}) {
+  for (const bsm_preset preset : {BSM_PRESET_PAPER, BSM_PRESET_FAST, BSM_PRESET_BALANCED, BSM_PRESET_LOCAL}) {
     for (const bsm_format format : {BSM_FORMAT_RGB24, BSM_FORMAT_GRAY8}) {
       for (const bsm_stage stage : kStages) {
         bsm_config low = target_config(320, 100, 48, 512, format);

@@ -217,7 +217,8 @@ TEST_CASE(descriptor_lengths) {
 }
 
 TEST_CASE(presets) {
-  for (const bsm_preset preset : {BSM_PRESET_PAPER, BSM_PRESET_FAST, BSM_PRESET_BALANCED, BSM_PRESET_BEST}) {
+  for (const bsm_preset preset :
+       {BSM_PRESET_PAPER, BSM_PRESET_FAST, BSM_PRESET_BALANCED, BSM_PRESET_BEST, BSM_PRESET_LOCAL}) {
     for (const bsm_format format : {BSM_FORMAT_RGB24, BSM_FORMAT_GRAY8}) {
       bsm_config config = small_config(41, 15, format);
       REQUIRE_EQ(bsm_config_preset(&config, preset), BSM_OK);

@@ -161,7 +161,8 @@ TEST_CASE(stack_stays_within_the_bound) {
   Rng rng(seed());
   size_t deepest = 0;
   for (const bsm_format format : kAllFormats) {
-    for (const bsm_preset preset : {BSM_PRESET_PAPER, BSM_PRESET_FAST, BSM_PRESET_BALANCED, BSM_PRESET_BEST}) {
+    for (const bsm_preset preset :
+         {BSM_PRESET_PAPER, BSM_PRESET_FAST, BSM_PRESET_BALANCED, BSM_PRESET_BEST, BSM_PRESET_LOCAL}) {
       for (const uint32_t isa_mask : isa_masks()) {
         bsm_config config = config_for(37, 29, format);
         REQUIRE_EQ(bsm_config_preset(&config, preset), BSM_OK);

@@ -32,7 +32,7 @@ constexpr double kErrorBound = 0.5 + 0.02;
 constexpr double kVoteSteps = 64;
 constexpr double kSmoothSteps = 16;
 
-// The two pair patterns.
+// The pair patterns.
 struct PatternKind {
   const char* name;
   bsm::Pattern (*make)(int32_t bits, bsm::PixelPair* pairs);
@@ -40,6 +40,7 @@ struct PatternKind {
   double sigma;
 };
 constexpr PatternKind kPatterns[] = {{"local", bsm::local_pattern, BSM_MAX_BITS, 4},
+                                     {"narrow", bsm::narrow_pattern, BSM_MAX_BITS, 3},
                                      {"sgm", bsm::sgm_pattern, BSM_MAX_SGM_BITS, 2.5}};
 
 bsm::Pattern make_pattern(const PatternKind& kind, int bits, std::vector<bsm::PixelPair>* pairs) {

@@ -9,8 +9,11 @@ namespace {
 constexpr int32_t kFeatureBits = 32;
 
 constexpr Choice kMethods[] = {{"local", BSM_METHOD_LOCAL}, {"sgm", BSM_METHOD_SGM}};
-constexpr Choice kPresets[] = {
-    {"paper", BSM_PRESET_PAPER}, {"fast", BSM_PRESET_FAST}, {"balanced", BSM_PRESET_BALANCED}, {"best", BSM_PRESET_BEST}};
+constexpr Choice kPresets[] = {{"paper", BSM_PRESET_PAPER},
+                               {"fast", BSM_PRESET_FAST},
+                               {"balanced", BSM_PRESET_BALANCED},
+                               {"best", BSM_PRESET_BEST},
+                               {"local", BSM_PRESET_LOCAL}};
 constexpr Choice kRightCosts[] = {{"own", BSM_RIGHT_COSTS_OWN}, {"left", BSM_RIGHT_COSTS_LEFT}};
 constexpr Choice kStages[] = {{"cost", BSM_STAGE_COST},
                               {"masked", BSM_STAGE_MASKED},
@@ -47,6 +50,7 @@ struct PresetField {
 constexpr PresetField kPresetFields[] = {
     {"--bits", "n", &bsm_config::bits, BSM_MIN_BITS, BSM_MAX_BITS, BSM_ERROR_BITS,
      "descriptor length, a multiple of 64; sgm at most 1024"},
+    {"--sigma", "S", &bsm_config::sigma, 3, 4, BSM_ERROR_SIGMA, "local: spread of the pattern, pixels; the paper has 4"},
     {"--paths", "P", &bsm_config::paths, 3, 8, BSM_ERROR_PATHS,
      "sgm: 3, 4 or 5 paths of one pass from the top, or 8 over the whole frame"},
     {"--p1", "C", &bsm_config::p1, 1, 16384, BSM_ERROR_PENALTY, "sgm: penalty of a change by one level, at 4096 bits"},

@@ -23,7 +23,8 @@ struct Size {
   int32_t width, height;
 };
 constexpr Size kCommonSizes[] = {{160, 120}, {320, 240}, {450, 375}, {640, 480}, {1280, 720}};
-constexpr bsm_preset kPresets[] = {BSM_PRESET_FAST, BSM_PRESET_BALANCED, BSM_PRESET_PAPER, BSM_PRESET_BEST};
+constexpr bsm_preset kPresets[] = {BSM_PRESET_FAST, BSM_PRESET_BALANCED, BSM_PRESET_LOCAL, BSM_PRESET_PAPER,
+                                   BSM_PRESET_BEST};
 
 // The kernels of a context for one small image; they do not depend on its size.
 bsm_status print_kernels(bsm_config config) {

@@ -154,6 +154,7 @@ void print_json(const MatchArguments& arguments, const MatchResult& result) {
       .add("min_disparity", int64_t{config.min_disparity})
       .add("num_disparities", int64_t{config.num_disparities})
       .add("bits", int64_t{config.bits})
+      .add("sigma", int64_t{config.sigma})
       .add("method", method_name(config.method))
       .add("stage", stage_name(config.stage))
       .add("preset", arguments.config.preset())

@@ -46,7 +46,7 @@ run_options() {
   fi
   if smaller local -DBSM_SGM=OFF; then
     same local --preset paper --bits 512
-    same local --preset balanced --method local --bits 256
+    same local --preset local
     same local --preset paper --bits 64 --stage cost --isa scalar
     refused local "the method is unknown or was not built" --preset fast
   fi

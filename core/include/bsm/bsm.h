@@ -101,7 +101,8 @@ typedef enum bsm_status {
   BSM_ERROR_ROW_MODE = -42,        /* the row API with 8 paths, which need the whole frame; use bsm_process or fewer paths */
   BSM_ERROR_ROW_COUNT = -43,       /* bsm_push_row after the last row of the image, or after bsm_finish */
   BSM_ERROR_PULL_FIRST = -44,      /* bsm_push_row while a finished row waits; call bsm_pull_row first */
-  BSM_ERROR_ISA = -45              /* isa_mask leaves nothing: this build has no scalar kernels */
+  BSM_ERROR_ISA = -45,             /* isa_mask leaves nothing: this build has no scalar kernels */
+  BSM_ERROR_SIGMA = -46            /* sigma is neither 3 nor 4 */
 } bsm_status;
 
 /* How costs become disparities. */
@@ -130,7 +131,8 @@ typedef enum bsm_preset {
   BSM_PRESET_PAPER = 0,    /* the paper's own steps: local, 4096 bits, left/right check, vote, 3x3 median */
   BSM_PRESET_FAST = 1,     /* sgm, 4 paths, 128 bits */
   BSM_PRESET_BALANCED = 2, /* sgm, 4 paths, 256 bits */
-  BSM_PRESET_BEST = 3      /* sgm, 8 paths, 1024 bits; whole frames only */
+  BSM_PRESET_BEST = 3,     /* sgm, 8 paths, 1024 bits; whole frames only */
+  BSM_PRESET_LOCAL = 4     /* local, 256 bits, refined as the maps of sgm are */
 } bsm_preset;
 
 /* Memory layout of the input. Names give the order of bytes in memory. With YUV, two pixels side by side (nv12, nv21: two
@@ -184,6 +186,7 @@ typedef struct bsm_config {
   /* Costs. */
   int32_t method; /* bsm_method */
   int32_t bits;   /* descriptor length n, a multiple of 64 within 64..4096 (sgm: 64..1024) */
+  int32_t sigma;  /* local: standard deviation of the pattern's offsets, in pixels: 4 (the paper's) or 3; sgm has 2.5 */
 
   /* Semi-global aggregation; read by sgm alone. */
   int32_t paths;          /* 3: from the left, the right and above; 4: and above-left; 5: and above-right; 8: and the three
@@ -216,7 +219,7 @@ typedef struct bsm_config {
   /* Machine. */
   int32_t max_jobs;     /* jobs that bsm_process may run side by side, 1..BSM_MAX_JOBS; each needs scratch memory */
   uint32_t isa_mask;    /* instruction sets allowed (bsm_cpu_features bits); BSM_ISA_ALL for all. Scalar always is */
-  uint32_t reserved[6]; /* zero */
+  uint32_t reserved[5]; /* zero */
 } bsm_config;
 
 /* An image in the caller's memory, never written. Row y of plane i begins stride[i] * y bytes after plane[i]; strides are in

@@ -10,7 +10,7 @@ import java.nio.ByteBuffer;
  */
 public final class StereoMatcher implements AutoCloseable {
   /** Presets, see bsm.h. {@link #BEST} takes about 1 KB of memory for each 4 pixels. */
-  public static final int PAPER = 0, FAST = 1, BALANCED = 2, BEST = 3;
+  public static final int PAPER = 0, FAST = 1, BALANCED = 2, BEST = 3, LOCAL = 4;
   /** Orders of the chroma bytes: U V and V U. */
   public static final int NV12 = 6, NV21 = 7;
 
