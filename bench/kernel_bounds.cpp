@@ -120,19 +120,22 @@ double bound_cycles(const Core& core, const MaskThresholdArgs& args) {
 // Of a vector or word of both views: an XOR, and for each view an AND, the count and an addition; the other view's bits and
 // mask are loaded. A count: 12 operations by parallel sums; POPCNT, which one ALU does; 6 with a table of half bytes (AVX2);
 // VPOPCNTQ, which one ALU does, with XOR and AND in one three-operand operation. Per candidate: cost and level to one word
-// and the lesser of two, in both views. AVX2 counts up to 256 bits in words. AVX-512: eight candidates' counts become two
-// vectors by 10 operations a view, 3 of them moves, when a descriptor is shorter than a vector, else 17.
+// and the lesser of two, in both views. AVX2 and AVX-512: a lane for each of four or eight candidates, so that counts add up
+// in place (the first ones need no addition). AVX2 takes 1 more a view to sum bytes; or with long descriptors, for four
+// words and a view, 3 carry-save additions of 5, a count and an addition, and 18 a view at the end. Of both views: 4
+// operations to make keys (3 with three operands), 2 minima, 1 for the next levels.
 double bound_cycles(const Core& core, const MatchHammingArgs& args) {
   const double count = candidates(args.width, args.num_disparities);
   const double words = args.bits / 64.0;
   const Effort winners = {6, 1, 1, 0};
   if (is(core, "scalar")) return cycles(core, count * (words * Effort{1 + 2 * 14, 2, 0, 0} + winners));
   const Core& scalar = kCores[0];
-  if (is(core, "sse42") || (is(core, "avx2") && args.bits <= 256)) {
-    return cycles(scalar, count * (words * Effort{1 + 2 * 3, 2, 0, 2} + winners));
-  }
-  if (is(core, "avx2")) {  // bytes are summed every 1024 bits by 9
-    return count * (cycles(core, words / 4 * Effort{1 + 2 * 8, 4, 0, 0} + args.bits / 1024.0 * Effort{9, 0, 0, 0}));
+  if (is(core, "sse42")) return cycles(scalar, count * (words * Effort{1 + 2 * 3, 2, 0, 2} + winners));
+  if (is(core, "avx2")) {
+    const Effort keys = {4 + 2 + 1, 1, 1, 0};
+    if (args.bits <= 256) return cycles(core, count / 4 * (words * Effort{1 + 2 * 8, 4, 0, 0} + keys));
+    const Effort four = {4 + 2 * (4 + 3 * 5 + 7), 16, 0, 0};
+    return cycles(core, count / 4 * (words / 4 * four + Effort{2 * 18, 0, 0, 0} + keys));
   }
   if (is(core, "avx512")) {
     return cycles(core, count / 8 * (words * Effort{2 * 3, 2, 0, 2} + Effort{6 - 2, 1, 1, 0}));

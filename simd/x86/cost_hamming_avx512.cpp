@@ -114,23 +114,17 @@ template <bool kMasked, int32_t kWords>
 BSM_NOINLINE void count_row(const CostHammingArgs& row) {
   const CostHammingArgs args = row;  // a copy, which the costs written cannot change
   const ptrdiff_t bytes = args.bits / 8;
-  const auto within = [&](int32_t x) { return x < 0 ? 0 : x < args.width ? x : args.width; };
   int32_t cleared = 0;
   for (int32_t first = 0; first < args.width; first += kPixels) {
     const int32_t pixels = args.width - first < kPixels ? args.width - first : kPixels;
     const Block<kWords> block(args.other + first * bytes, pixels, bytes, static_cast<__m512i*>(args.scratch));
     const Meeting meeting = meet(args, first, pixels);
-    // Own pixels begin .. end - 1 have levels in range, those from all_begin to all_end - 1 eight of them.
     const int32_t least = meeting.step > 0 ? -meeting.base - (kPixels - 1) : meeting.base - args.num_disparities + 1;
-    const int32_t begin = within(least);
-    const int32_t end = within(least + args.num_disparities + kPixels - 1);
-    int32_t all_begin = within(least + kPixels - 1);
-    int32_t all_end = within(least + args.num_disparities);
-    if (pixels < kPixels || all_begin >= all_end) all_begin = all_end = end;
-    for (; cleared < end; ++cleared) clear(args, cleared);
-    count_pixels<false, kMasked>(block, args, meeting, begin, all_begin);
-    count_pixels<true, kMasked>(block, args, meeting, all_begin, all_end);
-    count_pixels<false, kMasked>(block, args, meeting, all_end, end);
+    const Span span(args.width, least, args.num_disparities, pixels, kPixels);
+    for (; cleared < span.end; ++cleared) clear(args, cleared);
+    count_pixels<false, kMasked>(block, args, meeting, span.begin, span.all_begin);
+    count_pixels<true, kMasked>(block, args, meeting, span.all_begin, span.all_end);
+    count_pixels<false, kMasked>(block, args, meeting, span.all_end, span.end);
   }
   for (; cleared < args.width; ++cleared) clear(args, cleared);
 }

@@ -8,17 +8,10 @@
 #include <stdint.h>
 
 #include "platform/compiler.h"
+#include "simd/x86/hamming_blocks.h"
 
 namespace bsm {
 namespace {
-
-// Descriptors and masks of neighbours in a row.
-struct View {
-  const uint8_t* descriptors;
-  const uint8_t* masks;
-
-  View from(ptrdiff_t bytes) const { return View{descriptors + bytes, masks == nullptr ? nullptr : masks + bytes}; }
-};
 
 // Set bits of (other ^ own) & mask, by 64-bit word. The first operand is overwritten: the one that is not needed again.
 inline __m512i count(__m512i other, __m512i own, __m512i mask) {

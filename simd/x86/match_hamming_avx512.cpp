@@ -115,21 +115,15 @@ BSM_NOINLINE void match_row(const MatchHammingArgs& row) {
   for (int32_t x = 0; x < args.width; ++x) _mm512_store_si512(left_best + x, _mm512_set1_epi32(-1));
   const View left{args.left, args.left_mask};
   const View right{args.right, args.right_mask};
-  const auto within = [&](int32_t x) { return x < 0 ? 0 : x < args.width ? x : args.width; };
   for (int32_t first = 0; first < args.width; first += kPixels) {
     const int32_t pixels = args.width - first < kPixels ? args.width - first : kPixels;
     const Meeting meeting{first + args.min_disparity, pixels, args.num_disparities};
-    // Left pixels begin .. end - 1 have candidates in the block, those from all_begin to all_end - 1 have eight.
-    const int32_t begin = within(meeting.left);
-    const int32_t end = within(meeting.left + args.num_disparities + pixels - 1);
-    int32_t all_begin = within(meeting.left + kPixels - 1);
-    int32_t all_end = within(meeting.left + args.num_disparities);
-    if (pixels < kPixels || all_begin >= all_end) all_begin = all_end = end;
+    const Span span(args.width, meeting.left, args.num_disparities, pixels, kPixels);
     const RightPixels<kMasked, kWords> block(right.from(first * bytes), pixels, bytes, left_best + args.width);
     __m512i best = _mm512_set1_epi32(-1);
-    best = compare<false>(block, left, bytes, meeting, begin, all_begin, left_best, best);
-    best = compare<true>(block, left, bytes, meeting, all_begin, all_end, left_best, best);
-    best = compare<false>(block, left, bytes, meeting, all_end, end, left_best, best);
+    best = compare<false>(block, left, bytes, meeting, span.begin, span.all_begin, left_best, best);
+    best = compare<true>(block, left, bytes, meeting, span.all_begin, span.all_end, left_best, best);
+    best = compare<false>(block, left, bytes, meeting, span.all_end, span.end, left_best, best);
     _mm_mask_storeu_epi16(args.right_level + first, static_cast<__mmask8>((1u << pixels) - 1),
                           _mm512_cvtepi64_epi16(_mm512_srli_epi64(best, 32)));
   }
