@@ -2,50 +2,16 @@
 #include "platform/compiler.h"
 
 #if BSM_ARCH_X86_64
-#include "simd/x86/cost_hamming_words.h"
+#include "simd/x86/cost_hamming_row.h"
 
 namespace bsm {
-namespace {
-
-template <int32_t kWords>
-void count_row(const CostHammingArgs& row) {
-  const CostHammingArgs args = row;  // a copy, which the costs written cannot change
-  const int32_t bytes = args.bits / 8;
-  for (int32_t x = 0; x < args.width; ++x) {
-    uint16_t* costs = args.cost + ptrdiff_t{x} * args.stride;
-    const LevelRange levels = candidate_levels(args, x);
-    const bool none = levels.first > levels.last;
-    const int32_t begin = none ? args.stride : levels.first;
-    for (int32_t level = 0; level < begin; ++level) costs[level] = kNoCost;
-    if (none) continue;
-    for (int32_t level = levels.last + 1; level < args.stride; ++level) costs[level] = kNoCost;
-    const int32_t disparity = args.min_disparity + levels.first;
-    const ptrdiff_t matched = args.view == 0 ? x - disparity : x + disparity;
-    const ptrdiff_t at = ptrdiff_t{x} * bytes;
-    const Candidates candidates{args.other + matched * bytes, args.view == 0 ? -bytes : bytes, levels.first, levels.last};
-    count_words<kWords>(args.own + at, args.own_mask == nullptr ? nullptr : args.own_mask + at, bytes, candidates, costs);
-  }
-}
-
-}  // namespace
 
 uint64_t cost_hamming_sse42_scratch(const KernelShape&) {
   return 0;
 }
 
 void cost_hamming_sse42(const CostHammingArgs& args) {
-  switch (args.bits / 64) {
-    case 1:
-      return count_row<1>(args);
-    case 2:
-      return count_row<2>(args);
-    case 3:
-      return count_row<3>(args);
-    case 4:
-      return count_row<4>(args);
-    default:
-      return count_row<0>(args);
-  }
+  count_costs(args);
 }
 
 }  // namespace bsm

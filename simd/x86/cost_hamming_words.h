@@ -1,10 +1,9 @@
-// Masked counts of candidates in 64-bit words, for the cost kernels of x86 with POPCNT.
+// Masked counts of candidates in 64-bit words, for the cost kernels of x86 with POPCNT and of WebAssembly.
 // Short descriptors stay in registers while the candidates pass. Bound, per word of a candidate: 1 XOR, 1 AND, 1 population
 // count, 1 addition; 1 load.
 #ifndef BSM_SIMD_X86_COST_HAMMING_WORDS_H
 #define BSM_SIMD_X86_COST_HAMMING_WORDS_H
 
-#include <nmmintrin.h>
 #include <stdint.h>
 
 #include "platform/compiler.h"
@@ -40,7 +39,7 @@ inline void count_short(const uint8_t* own, const uint8_t* mask, const Candidate
     uint64_t count = 0;
     BSM_UNROLL
     for (int32_t i = 0; i < kWords; ++i) {
-      count += static_cast<uint64_t>(_mm_popcnt_u64((bits[i] ^ load_word(other + 8 * i)) & kept[i]));
+      count += static_cast<uint64_t>(__builtin_popcountll((bits[i] ^ load_word(other + 8 * i)) & kept[i]));
     }
     costs[level] = static_cast<uint16_t>(count);
   }
@@ -53,7 +52,7 @@ inline void count_long(const uint8_t* own, const uint8_t* mask, int32_t bytes, c
     uint64_t count = 0;
     for (int32_t i = 0; i < bytes; i += 8) {
       const uint64_t kept = mask == nullptr ? ~uint64_t{0} : load_word(mask + i);
-      count += static_cast<uint64_t>(_mm_popcnt_u64((load_word(own + i) ^ load_word(other + i)) & kept));
+      count += static_cast<uint64_t>(__builtin_popcountll((load_word(own + i) ^ load_word(other + i)) & kept));
     }
     costs[level] = static_cast<uint16_t>(count);
   }

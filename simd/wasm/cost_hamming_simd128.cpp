@@ -1,0 +1,18 @@
+// cost_hamming, WebAssembly: 64-bit words, a candidate at a time.
+#include "platform/compiler.h"
+
+#if BSM_ARCH_SIMD128
+#include "simd/x86/cost_hamming_row.h"
+
+namespace bsm {
+
+uint64_t cost_hamming_simd128_scratch(const KernelShape&) {
+  return 0;
+}
+
+void cost_hamming_simd128(const CostHammingArgs& args) {
+  count_costs(args);
+}
+
+}  // namespace bsm
+#endif
