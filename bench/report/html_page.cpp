@@ -2,6 +2,7 @@
 #include "bench/report/html_page.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include "bench/report/svg_canvas.h"
 #include "host/text.h"
@@ -39,6 +40,7 @@ caption { text-align: left; font-weight: 600; padding: 4px 0 6px; white-space: n
 th, td { padding: 4px 6px; text-align: right; white-space: nowrap; border-bottom: 1px solid var(--line); }
 th { color: var(--soft); font-weight: 600; border-bottom: 2px solid #cfd6dd; vertical-align: bottom; white-space: normal; }
 th:first-child, td:first-child { text-align: left; padding-left: 2px; }
+.words { text-align: left; }
 tbody tr:hover { background: #f2f7fc; }
 tr.muted td { color: var(--soft); font-style: italic; }
 svg { max-width: 100%; height: auto; display: block; margin: 10px 0; border: 1px solid var(--line); border-radius: 6px; }
@@ -51,6 +53,20 @@ figcaption { font-size: 12.5px; color: var(--soft); padding-top: 4px; }
 .legend i { display: inline-block; width: 12px; height: 12px; border-radius: 2px; margin-right: 6px; vertical-align: -1px; }
 @media print { nav { display: none; } section { break-inside: avoid; } }
 )css";
+
+// Whether the column holds words: a cell that begins with a letter.
+bool holds_words(const Table& table, size_t column) {
+  return std::any_of(table.rows.begin(), table.rows.end(), [column](const std::vector<std::string>& row) {
+    return !row[column].empty() && std::isalpha(static_cast<unsigned char>(row[column][0])) != 0;
+  });
+}
+
+// The markup of a caption, with no line break before a percent sign.
+std::string caption_markup(const std::string& caption) {
+  std::string markup = escape_markup(caption);
+  for (size_t i = markup.find(" %"); i != std::string::npos; i = markup.find(" %", i)) markup.replace(i, 1, "&nbsp;");
+  return markup;
+}
 
 }  // namespace
 
@@ -66,12 +82,18 @@ void HtmlPage::table(const std::string& title, const Table& table, const std::ve
   std::string html = "<div class=\"scroll\"><table>";
   if (!title.empty()) html += "<caption>" + escape_markup(title) + "</caption>";
   html += "<thead><tr>";
-  for (const std::string& column : table.columns) html += "<th>" + escape_markup(column) + "</th>";
+  std::vector<std::string> attributes;
+  for (size_t column = 0; column < table.columns.size(); ++column) {
+    attributes.push_back(holds_words(table, column) ? " class=\"words\"" : "");
+    html += "<th" + attributes.back() + ">" + escape_markup(table.columns[column]) + "</th>";
+  }
   html += "</tr></thead><tbody>\n";
   for (const auto& row : table.rows) {
     const bool pale = std::find(muted.begin(), muted.end(), row[0]) != muted.end();
     html += pale ? "<tr class=\"muted\">" : "<tr>";
-    for (const std::string& cell : row) html += "<td>" + escape_markup(cell) + "</td>";
+    for (size_t column = 0; column < row.size(); ++column) {
+      html += "<td" + attributes[column] + ">" + escape_markup(row[column]) + "</td>";
+    }
     html += "</tr>\n";
   }
   body() += html + "</tbody></table></div>\n";
@@ -84,7 +106,7 @@ void HtmlPage::svg(const std::string& svg) {
 void HtmlPage::pictures(const std::vector<PagePicture>& pictures, bool large) {
   body() += large ? "<div class=\"pictures large\">\n" : "<div class=\"pictures\">\n";
   for (const PagePicture& picture : pictures) {
-    const std::string caption = escape_markup(picture.caption);
+    const std::string caption = caption_markup(picture.caption);
     body() += "<figure><img alt=\"" + caption + host::text("\" width=\"%d\" src=\"data:image/png;base64,", picture.width) +
               base64(picture.png) + "\"><figcaption>" + caption + "</figcaption></figure>\n";
   }

@@ -168,7 +168,7 @@ double draw_legend(SvgCanvas* canvas, const std::vector<LegendEntry>& entries, d
     }
     if (entry.line) {
       canvas->line(x, y, x + kLegendSwatch, y, entry.color, 2.0, entry.dashes);
-      canvas->marker(x + kLegendSwatch / 2, y, entry.shape, entry.color);
+      if (entry.marker) canvas->marker(x + kLegendSwatch / 2, y, entry.shape, entry.color);
     } else {
       canvas->rectangle(x + 6.0, y - 6.0, 12.0, 12.0, entry.color);
     }

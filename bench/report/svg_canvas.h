@@ -57,7 +57,8 @@ struct LegendEntry {
   std::string name;
   std::string color;
   size_t shape = 0;
-  bool line = false;  // a line with a marker instead of a box
+  bool line = false;   // a line instead of a box
+  bool marker = true;  // on the line
   std::string dashes;
 };
 

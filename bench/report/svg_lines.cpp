@@ -90,7 +90,7 @@ void draw_references(SvgCanvas* canvas, const Scale& y, double right, std::vecto
 std::vector<LegendEntry> legend_of(const std::vector<Series>& series, bool lines) {
   std::vector<LegendEntry> entries;
   for (size_t i = 0; i < series.size(); ++i) {
-    entries.push_back({series[i].name, series_color(i), i, lines, series[i].dashed ? kDashes : ""});
+    entries.push_back({series[i].name, series_color(i), i, lines, series[i].markers, series[i].dashed ? kDashes : ""});
   }
   return entries;
 }

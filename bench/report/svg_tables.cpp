@@ -36,7 +36,7 @@ std::string draw_stacks(const StackPlot& plot) {
     largest = std::max(largest, sum);
   }
   std::vector<LegendEntry> legend;
-  for (size_t i = 0; i < plot.parts.size(); ++i) legend.push_back({plot.parts[i], plot.colors[i], 0, false, ""});
+  for (size_t i = 0; i < plot.parts.size(); ++i) legend.push_back({plot.parts[i], plot.colors[i], 0, false, false, ""});
   SvgCanvas scratch(kWidth, 1.0, "");
   const double top = kTitle + 20.0 + draw_legend(&scratch, legend, kBarLeft, 0.0, kWidth - kBarRight);
   const double bottom = top + kBarStep * static_cast<double>(plot.categories.size());
