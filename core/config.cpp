@@ -128,7 +128,7 @@ extern "C" bsm_status bsm_config_preset(bsm_config* config, bsm_preset preset) {
   if (preset < BSM_PRESET_PAPER || preset > BSM_PRESET_LOCAL) return BSM_ERROR_PRESET;
   const bool paper = preset == BSM_PRESET_PAPER;
   const bool best = preset == BSM_PRESET_BEST;
-  const bool local = preset == BSM_PRESET_LOCAL;
+  const bool local = bsm::kHasLocal && preset == BSM_PRESET_LOCAL;
   const bool gray = !paper && config->format == BSM_FORMAT_GRAY8;  // luma alone tells less: its differences weigh more
   const bool few_gray = gray && preset == BSM_PRESET_FAST;         // the least to go by: surfaces may change more freely
   config->method = paper || local ? BSM_METHOD_LOCAL : BSM_METHOD_SGM;

@@ -137,10 +137,6 @@ JobPlan plan_job(const bsm_config& config, const Kernels& kernels, const Plan& p
 
 }  // namespace
 
-bool has_sgm_pattern(const bsm_config& config) {
-  return !kHasLocal || (kHasSgm && config.method == BSM_METHOD_SGM);
-}
-
 int32_t row_delay(const bsm_config& config) {
   Plan plan{};
   plan_stages(config, &plan);

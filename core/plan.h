@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "bsm/bsm.h"
+#include "simd/build.h"
 #include "simd/kernels.h"
 
 namespace bsm {
@@ -105,7 +106,9 @@ struct Plan {
 };
 
 // True when the pairs are those of sgm.
-bool has_sgm_pattern(const bsm_config& config);
+inline bool has_sgm_pattern(const bsm_config& config) {
+  return !kHasLocal || (kHasSgm && config.method == BSM_METHOD_SGM);
+}
 
 // config is valid; context_bytes is reserved at offset 0.
 void make_plan(const bsm_config& config, const Kernels& kernels, uint64_t context_bytes, Plan* plan);
