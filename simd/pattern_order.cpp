@@ -7,23 +7,26 @@
 namespace bsm {
 namespace {
 
-// A point with n pairs begins (n + 2) / 3 triples at most.
-int32_t most_triples(int32_t bits) {
-  const int32_t points = bits < kMaxPoints ? bits : kMaxPoints;
-  return ((bits + 2 * points) / 3 + kTripleGroup - 1) / kTripleGroup * kTripleGroup;
+// Pairs that repeat are counted apart when they are at least so many: else it takes as many groups.
+constexpr int32_t kApart = 64;
+
+int32_t round_up(int32_t value, int32_t multiple) {
+  return (value + multiple - 1) / multiple * multiple;
 }
 
-struct Numbers {
-  int32_t p, q;
-};
+int32_t most_singles(int32_t bits) {
+  return bits + PatternOrder::kSingleGroup;
+}
 
-Numbers numbers_of(uint32_t pair) {
-  return Numbers{static_cast<int32_t>((pair & 0xffff) / 8), static_cast<int32_t>((pair >> 16) / 8)};
+// A point with n pairs begins n / 3 + 1 triples at most, also when those that repeat are apart.
+int32_t most_triples(int32_t bits) {
+  const int32_t points = bits < kMaxPoints ? bits : kMaxPoints;
+  return round_up(bits / 3 + points, PatternOrder::kTripleGroup) + PatternOrder::kTripleGroup;
 }
 
 void list_groups(int32_t bits, PatternOrder& order) {
   BSM_MEMSET(order.shares, 0, sizeof order.shares);
-  for (int32_t i = 0; i < bits; ++i) ++order.shares[numbers_of(order.points.pairs[i]).p];
+  for (int32_t i = 0; i < bits; ++i) ++order.shares[(order.points.pairs[i] & 0xffff) / 8];
   order.groups_count = 0;
   int32_t places = 0;
   for (int32_t size = 1; places != bits; ++size) {
@@ -36,58 +39,103 @@ void list_groups(int32_t bits, PatternOrder& order) {
   }
   for (int32_t i = 0; i < bits; ++i) {
     const uint32_t pair = order.points.pairs[i];
-    order.partners[order.next[numbers_of(pair).p]++] = pair >> 16 | static_cast<uint32_t>(i) << 16;
+    order.partners[order.next[(pair & 0xffff) / 8]++] = pair >> 16 | static_cast<uint32_t>(i) << 16;
   }
 }
 
-// Of a pair's points that which more pairs share, and the other one.
-Numbers by_shares(const PatternOrder& order, uint32_t pair) {
-  const Numbers n = numbers_of(pair);
-  const bool p_first = order.shares[n.p] != order.shares[n.q] ? order.shares[n.p] > order.shares[n.q] : n.p > n.q;
-  return p_first ? n : Numbers{n.q, n.p};
+// Shell's sort.
+void sort(uint32_t* values, int32_t count) {
+  for (int32_t gap = count / 2; gap != 0; gap /= 2) {
+    for (int32_t i = gap; i < count; ++i) {
+      const uint32_t value = values[i];
+      int32_t at = i;
+      for (; at >= gap && values[at - gap] > value; at -= gap) values[at] = values[at - gap];
+      values[at] = value;
+    }
+  }
 }
 
-void list_triples(int32_t bits, PatternOrder& order) {
-  const int32_t points = order.points.count;
+// Sorted: the pairs with the point that more pairs share above the other one.
+void sort_by_shares(int32_t bits, PatternOrder& order, uint32_t* pairs) {
   BSM_MEMSET(order.shares, 0, sizeof order.shares);
-  BSM_MEMSET(order.next, 0, sizeof order.next);
   for (int32_t i = 0; i < bits; ++i) {
-    const Numbers n = numbers_of(order.points.pairs[i]);
-    ++order.shares[n.p];
-    ++order.shares[n.q];
+    ++order.shares[(order.points.pairs[i] & 0xffff) / 8];
+    ++order.shares[(order.points.pairs[i] >> 16) / 8];
   }
-  for (int32_t i = 0; i < bits; ++i) ++order.next[by_shares(order, order.points.pairs[i]).p];
-  int32_t places = 0;
-  for (int32_t i = 0; i < points; ++i) {
-    const int32_t count = order.next[i];
-    order.next[i] = static_cast<uint16_t>(places);
-    places += (count + 2) / 3 * 3;
-  }
-  order.triples_count = (places / 3 + kTripleGroup - 1) / kTripleGroup * kTripleGroup;
-  const uint16_t none = static_cast<uint16_t>(8 * points);
-  for (int32_t i = 0; i < order.triples_count; ++i) order.triples[i] = PatternOrder::Triple{none, {none, none, none}};
   for (int32_t i = 0; i < bits; ++i) {
-    const Numbers n = by_shares(order, order.points.pairs[i]);
-    const int32_t place = order.next[n.p]++;
-    order.triples[place / 3].shared = static_cast<uint16_t>(8 * n.p);
-    order.triples[place / 3].others[place % 3] = static_cast<uint16_t>(8 * n.q);
+    const uint32_t p = order.points.pairs[i] & 0xffff;
+    const uint32_t q = order.points.pairs[i] >> 16;
+    const int32_t more = order.shares[p / 8] - order.shares[q / 8];
+    pairs[i] = more > 0 || (more == 0 && p > q) ? p << 16 | q : q << 16 | p;
   }
+  sort(pairs, bits);
+}
+
+// Adds a pair to the singles and to the triples, whose last one it joins when it shares its point and there is a place.
+void add(PatternOrder& order, uint32_t pair) {
+  order.singles[order.singles_count++] = pair;
+  const uint16_t none = static_cast<uint16_t>(8 * order.points.count);
+  const uint16_t shared = static_cast<uint16_t>(pair >> 16);
+  const PatternOrder::Triple* last = order.triples + order.triples_count;
+  if (order.triples_count == order.triples_twice || last[-1].shared != shared || last[-1].others[2] != none) {
+    order.triples[order.triples_count++] = PatternOrder::Triple{shared, {none, none, none}};
+  }
+  uint16_t* place = order.triples[order.triples_count - 1].others;
+  while (*place != none) ++place;
+  *place = static_cast<uint16_t>(pair);
+}
+
+// Fills the last groups up.
+void end_groups(PatternOrder& order) {
+  const uint16_t none = static_cast<uint16_t>(8 * order.points.count);
+  while (order.singles_count % PatternOrder::kSingleGroup != 0) order.singles[order.singles_count++] = none * 0x10001u;
+  while (order.triples_count % PatternOrder::kTripleGroup != 0) {
+    order.triples[order.triples_count++] = PatternOrder::Triple{none, {none, none, none}};
+  }
+}
+
+void list_counted(int32_t bits, PatternOrder& order) {
+  uint32_t* const pairs = order.partners;  // not yet in use
+  sort_by_shares(bits, order, pairs);
+  int32_t repeated = 0;
+  const auto for_each_pair = [pairs, bits](const auto& visit) {
+    for (int32_t i = 0, begin = 0; i < bits; begin = i) {
+      while (i < bits && pairs[i] == pairs[begin]) ++i;
+      visit(pairs[begin], i - begin);
+    }
+  };
+  for_each_pair([&repeated](uint32_t, int32_t times) { repeated += times / 2; });
+  const bool apart = repeated >= kApart;
+  order.singles_count = order.singles_twice = order.triples_count = order.triples_twice = 0;
+  if (apart) {
+    for_each_pair([&order](uint32_t pair, int32_t times) {
+      for (; times >= 2; times -= 2) add(order, pair);
+    });
+    end_groups(order);
+    order.singles_twice = order.singles_count;
+    order.triples_twice = order.triples_count;
+  }
+  for_each_pair([&order, apart](uint32_t pair, int32_t times) {
+    for (times = apart ? times % 2 : times; times != 0; --times) add(order, pair);
+  });
+  end_groups(order);
 }
 
 }  // namespace
 
 uint64_t pattern_order_bytes(int32_t bits) {
-  return sizeof(PatternOrder) + static_cast<uint64_t>(bits) * sizeof(uint32_t) +
+  return sizeof(PatternOrder) + static_cast<uint64_t>(bits + most_singles(bits)) * sizeof(uint32_t) +
          static_cast<uint64_t>(most_triples(bits)) * sizeof(PatternOrder::Triple);
 }
 
 const PatternOrder* make_pattern_order(const Pattern& pattern, void* memory) {
   PatternOrder* const order = static_cast<PatternOrder*>(memory);
   order->triples = reinterpret_cast<PatternOrder::Triple*>(order + 1);
-  order->partners = reinterpret_cast<uint32_t*>(order->triples + most_triples(pattern.bits));
+  order->singles = reinterpret_cast<uint32_t*>(order->triples + most_triples(pattern.bits));
+  order->partners = order->singles + most_singles(pattern.bits);
   number_points(pattern, order->points);
+  list_counted(pattern.bits, *order);
   list_groups(pattern.bits, *order);
-  list_triples(pattern.bits, *order);
   return order;
 }
 

@@ -34,19 +34,22 @@ struct PatternOrder {
     uint16_t shared;
     uint16_t others[3];
   };
+  static constexpr int32_t kTripleGroup = 32, kSingleGroup = 64;
 
   PatternPoints points;
   Group groups[kMaxPoints];
   int32_t groups_count;
   uint32_t* partners;  // of all groups, one after the other: point q, the pair's bit above it
+  // All pairs for counting, in threes and one by one (a point, the other one above it). The first ones count twice: many
+  // pairs come more than once. Both parts of both lists are filled up to groups.
   Triple* triples;
-  int32_t triples_count;  // a multiple of kTripleGroup
-  // By number, while the order is made: pairs of a point, and the place of the next one.
+  uint32_t* singles;
+  int32_t triples_count, triples_twice;
+  int32_t singles_count, singles_twice;
+  // By number, while the order is made: pairs of a point, and the place of its next one.
   uint16_t shares[kMaxPoints];
   uint16_t next[kMaxPoints];
 };
-
-constexpr int32_t kTripleGroup = 32;
 
 // Kernels of these machines read Pattern::order.
 constexpr bool kOrdersPatterns = BSM_ARCH_X86_64 || BSM_ARCH_SIMD128;

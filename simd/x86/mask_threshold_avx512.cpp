@@ -1,10 +1,10 @@
 // mask_threshold, AVX-512 BW, VBMI, GFNI: 64 neighbouring pixels at once.
 // The SAD of every window offset in use is one byte a pixel, saturated at 255. A pass tries eight thresholds: bit j of a
 // byte says that the SAD is within threshold j, and carry-save adders count each of the 512 bits over all pairs. Three pairs
-// that share an offset are added first: 8 operations and 4 loads for them all, ANDs with the shared offset included. Two
-// passes find most T. With T known, one compare an offset gives a word of 64 pixels; a pair is one AND of the words of two
-// blocks.
-// Bound: two ALUs, so 4/3 cycles a pair and pass, and 7/8 for the transposition, which one of them does.
+// that share an offset are added first: 8 operations and 4 loads for them all, ANDs with the shared offset included; pairs
+// that come twice are counted once and count twice. Two passes find most T. With T known, one compare an offset gives a word
+// of 64 pixels; a pair is one AND of the words of two blocks. Bound: two ALUs, so 4/3 cycles a pair and pass, and 7/8 for
+// the transposition, which one of them does.
 #include "platform/compiler.h"
 
 #if BSM_ARCH_X86_64
@@ -18,10 +18,15 @@ namespace {
 constexpr int32_t kBlocks = 2;      // whose words are made at once
 constexpr int32_t kHighLevels = 8;  // bits of a count from 32 on
 
+struct Counter {
+  __m512i level[5];  // bits 0..4 of 512 counts
+};
+
 struct alignas(64) Scratch {
   uint8_t sad[kMaxPoints][64];
   uint8_t within[kMaxPoints + 1][64];  // bit j: the SAD is within threshold j
-  __m512i high[kHighLevels];
+  __m512i high[kHighLevels];           // counts are ones + 2 twos + 32 high
+  Counter twice[2];                    // ones and twos of what counts twice, once
   uint64_t tile[kTileWords];
   uint64_t words[kBlocks][kTileWords];
   uint64_t point_words[kMaxPoints][kBlocks];
@@ -74,10 +79,6 @@ inline __m512i carry3(__m512i a, __m512i b, __m512i sum) {
   return _mm512_ternarylogic_epi64(a, b, sum, 0xd4);
 }
 
-struct Counter {
-  __m512i level[5];  // bits 0..4 of 512 counts
-};
-
 // Adds the bits a and b to a level; returns the carry.
 template <int32_t kLevel>
 BSM_INLINE __m512i add(Counter& counter, __m512i a, __m512i b) {
@@ -118,27 +119,59 @@ BSM_INLINE Two add_triples(Counter& ones, Counter& twos, const Scratch& scratch,
   return Two{add<kLevel>(ones, a.ones, b.ones), add<kLevel>(twos, a.twos, b.twos)};
 }
 
-// Bit j of byte x: at least bits / 4 pairs of pixel x are within threshold j.
-BSM_NOINLINE __m512i enough(Scratch& scratch, int32_t bits) {
+// Adds carries of the weights 32 and 64 to the high bits.
+BSM_INLINE void add_high(__m512i* high, int32_t levels, Two carries) {
+  __m512i carry = _mm512_and_si512(high[0], carries.ones);
+  high[0] = _mm512_xor_si512(high[0], carries.ones);
+  high[1] = sum3(high[1], carry, carries.twos);
+  carry = carry3(carry, carries.twos, high[1]);
+  for (int32_t i = 2; i < levels; ++i) {
+    const __m512i old = high[i];
+    high[i] = _mm512_xor_si512(old, carry);
+    carry = _mm512_and_si512(old, carry);
+  }
+}
+
+// Counts whole groups of triples.
+BSM_INLINE void count(Counter& ones, Counter& twos, int32_t levels, Scratch& scratch, int32_t begin, int32_t end) {
+  for (int32_t first = begin; first < end; first += PatternOrder::kTripleGroup) {
+    add_high(scratch.high, levels, add_triples<4>(ones, twos, scratch, scratch.order->triples + first));
+  }
+}
+
+// Counts the triples that count twice, once.
+BSM_NOINLINE void count_twice(Scratch& scratch, int32_t levels) {
   Counter ones, twos;
   BSM_UNROLL
   for (int32_t i = 0; i < 5; ++i) ones.level[i] = twos.level[i] = _mm512_setzero_si512();
+  count(ones, twos, levels, scratch, 0, scratch.order->triples_twice);
+  BSM_UNROLL
+  for (int32_t i = 0; i < 5; ++i) {
+    scratch.twice[0].level[i] = ones.level[i];
+    scratch.twice[1].level[i] = twos.level[i];
+  }
+}
+
+// Bit j of byte x: at least bits / 4 pairs of pixel x are within threshold j.
+BSM_NOINLINE __m512i enough(Scratch& scratch, int32_t bits) {
   int32_t levels = 2;
   while (bits >> (5 + levels) != 0) ++levels;
   for (int32_t i = 0; i < levels; ++i) scratch.high[i] = _mm512_setzero_si512();
-  const PatternOrder& order = *scratch.order;
-  for (int32_t first = 0; first < order.triples_count; first += kTripleGroup) {
-    const Two carries = add_triples<4>(ones, twos, scratch, order.triples + first);
-    __m512i carry = _mm512_and_si512(scratch.high[0], carries.ones);
-    scratch.high[0] = _mm512_xor_si512(scratch.high[0], carries.ones);
-    scratch.high[1] = sum3(scratch.high[1], carry, carries.twos);
-    carry = carry3(carry, carries.twos, scratch.high[1]);
-    for (int32_t i = 2; i < levels; ++i) {
-      const __m512i old = scratch.high[i];
-      scratch.high[i] = _mm512_xor_si512(old, carry);
-      carry = _mm512_and_si512(old, carry);
+  Counter ones, twos;
+  BSM_UNROLL
+  for (int32_t i = 0; i < 5; ++i) ones.level[i] = twos.level[i] = _mm512_setzero_si512();
+  if (scratch.order->triples_twice != 0) {
+    count_twice(scratch, levels);
+    for (int32_t i = levels - 1; i > 0; --i) scratch.high[i] = scratch.high[i - 1];
+    scratch.high[0] = _mm512_setzero_si512();
+    add_high(scratch.high, levels, Two{scratch.twice[0].level[4], scratch.twice[1].level[4]});
+    BSM_UNROLL
+    for (int32_t i = 1; i < 5; ++i) {
+      ones.level[i] = scratch.twice[0].level[i - 1];
+      twos.level[i] = scratch.twice[1].level[i - 1];
     }
   }
+  count(ones, twos, levels, scratch, scratch.order->triples_twice, scratch.order->triples_count);
   // Adds the counts up and compares with bits / 4, from the lowest bit up.
   const uint32_t wanted = static_cast<uint32_t>(bits) / 4;
   __m512i result = _mm512_set1_epi8(-1);

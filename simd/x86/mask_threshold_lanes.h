@@ -19,12 +19,13 @@ constexpr int32_t kBlocks = 64 / kLanes;  // of pixels, whose words are made at 
 
 struct alignas(64) MaskScratch {
   uint8_t sad[kMaxPoints][kLanes];
-  uint8_t within[kMaxPoints][kLanes];  // bit j: the SAD is within threshold j
+  uint8_t within[kMaxPoints + 1][kLanes];  // bit j: the SAD is within threshold j
   uint8_t high[kHighLevels][kLanes];
   Word words[kBlocks][kWordsAtOnce];
   Word point_words[kMaxPoints][kBlocks];  // 8 bytes apart, as the numbers of points are
   uint16_t exact_sad[kMaxPoints];
   uint16_t histogram[kMaxSad + 1];
+  const PatternOrder* order;
   const PatternPoints* points;
   const uint8_t* at[kMaxPoints];  // first plane of the points of pixel 0
 };
@@ -35,11 +36,13 @@ inline Bytes distance(Bytes a, Bytes b) {
 
 inline MaskScratch& begin_row(const MaskThresholdArgs& args) {
   MaskScratch& scratch = *static_cast<MaskScratch*>(args.scratch);
-  scratch.points = &args.pattern.order->points;
+  scratch.order = args.pattern.order;
+  scratch.points = &scratch.order->points;
   const uint8_t* const* rows = args.rows + args.pattern.radius;
   for (int32_t i = 0; i < scratch.points->count; ++i) {
     scratch.at[i] = rows[scratch.points->points[i].dy] + scratch.points->points[i].dx;
   }
+  store(scratch.within[scratch.points->count], zero());
   return scratch;
 }
 
@@ -105,22 +108,33 @@ BSM_INLINE Bytes add_pairs(Counter& counter, const MaskScratch& scratch, const u
   }
 }
 
+// Adds a carry of weight 64 to the high bits.
+BSM_INLINE void add_high(MaskScratch& scratch, int32_t levels, Bytes carry) {
+  for (int32_t i = 0; i < levels; ++i) {
+    const Bytes old = load(scratch.high[i]);
+    store(scratch.high[i], differ(old, carry));
+    carry = both(old, carry);
+  }
+}
+
 // Bit j of byte x: at least bits / 4 pairs of pixel x are within threshold j.
 BSM_NOINLINE Bytes enough(MaskScratch& scratch, int32_t bits) {
   Counter counter;
   BSM_UNROLL
   for (int32_t i = 0; i < 6; ++i) counter.level[i] = zero();
-  const int32_t groups = bits / 64;
   int32_t levels = 1;
-  while (groups >> levels != 0) ++levels;
+  while (bits >> (6 + levels) != 0) ++levels;
   for (int32_t i = 0; i < levels; ++i) store(scratch.high[i], zero());
-  for (int32_t group = 0; group < groups; ++group) {
-    Bytes carry = add_pairs<5>(counter, scratch, scratch.points->pairs + 64 * group);
-    for (int32_t i = 0; i < levels; ++i) {
-      const Bytes old = load(scratch.high[i]);
-      store(scratch.high[i], differ(old, carry));
-      carry = both(old, carry);
+  const PatternOrder& order = *scratch.order;
+  for (int32_t first = 0; first < order.singles_count; first += PatternOrder::kSingleGroup) {
+    if (first == order.singles_twice && first != 0) {  // what is counted so far counts twice
+      for (int32_t i = levels - 1; i > 0; --i) store(scratch.high[i], load(scratch.high[i - 1]));
+      store(scratch.high[0], counter.level[5]);
+      BSM_UNROLL
+      for (int32_t i = 5; i > 0; --i) counter.level[i] = counter.level[i - 1];
+      counter.level[0] = zero();
     }
+    add_high(scratch, levels, add_pairs<5>(counter, scratch, order.singles + first));
   }
   // Compares with bits / 4 from the lowest bit up; 16 divides it.
   const uint32_t wanted = static_cast<uint32_t>(bits) / 4;
