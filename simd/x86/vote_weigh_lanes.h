@@ -1,7 +1,6 @@
 // vote_weigh for AVX2 and SSE4.2: exponents of kLanes / 2 neighbours at once, weights and votes one by one.
 // Votes go to four sets of sums in turn, so that neighbours of one level do not wait for each other. Bound, for each
-// neighbour: the look-up of its weight and one addition in memory. Windows whose taps lie apart have few of them and go tap
-// by tap.
+// neighbour: the look-up of its weight and one addition in memory.
 // Include after the lanes of one instruction set.
 #ifndef BSM_SIMD_X86_VOTE_WEIGH_LANES_H
 #define BSM_SIMD_X86_VOTE_WEIGH_LANES_H
@@ -53,7 +52,7 @@ inline void prepare(const Ballot& ballot) {
   VoteScratch& scratch = ballot.scratch;
   BSM_MEMSET(scratch.weights, 0, sizeof scratch.weights);
   BSM_MEMCPY(scratch.weights, args.weights, sizeof(uint16_t) * static_cast<size_t>(args.weights_count));
-  for (int32_t dy = 0; dy <= args.radius; ++dy) {
+  for (int32_t dy = 0; dy <= args.radius; dy += args.step) {
     BSM_MEMSET(scratch.distance[dy], 0xff, sizeof scratch.distance[dy]);
     const uint16_t* steps = args.distance_steps + ptrdiff_t{dy} * (args.radius + 1);
     for (int32_t dx = 0; dx <= args.radius; ++dx) {
@@ -62,7 +61,7 @@ inline void prepare(const Ballot& ballot) {
   }
 }
 
-// Votes of the columns begin..end-1 of row dy.
+// Votes of every step-th of the columns begin..end-1 of row dy.
 template <int32_t kPlanes>
 inline void collect_row(const Ballot& ballot, int32_t x, int32_t dy, int32_t begin, int32_t end,
                         const Bytes (&center)[kPlanes]) {
@@ -90,28 +89,10 @@ inline void collect_row(const Ballot& ballot, int32_t x, int32_t dy, int32_t beg
     store(scratch.level + (i - start), choose(whole, set16(args.num_disparities), missing));
   }
   const int32_t last_set = ballot.sets - 1;
-  for (int32_t i = begin; i < end; ++i) {
+  for (int32_t i = begin; i < end; i += args.step) {
     const uint16_t weight = scratch.weights[scratch.exponent[i - start]];
     ballot.votes[(i & last_set) * ballot.set_size + scratch.level[i - start]] += weight;
   }
-}
-
-// One tap of a window whose taps lie apart.
-template <int32_t kPlanes>
-inline void collect_tap(const Ballot& ballot, int32_t x, int32_t dy, int32_t at) {
-  const VoteWeighArgs& args = ballot.args;
-  const uint16_t level = args.levels[dy + args.radius][at];
-  if (level >= kOccluded) return;
-  const uint8_t* own = args.lab[args.radius] + x;
-  const uint8_t* other = args.lab[dy + args.radius] + at;
-  uint32_t sad = 0;
-  for (int32_t plane = 0; plane < kPlanes; ++plane) {
-    const int32_t difference = own[plane * args.plane_stride] - other[plane * args.plane_stride];
-    sad += static_cast<uint32_t>(difference < 0 ? -difference : difference);
-  }
-  const uint32_t exponent =
-      ((sad * args.color_scale + 512) >> 10) + ballot.scratch.distance[dy < 0 ? -dy : dy][kCenter + at - x];
-  ballot.votes[whole_level(level)] += ballot.scratch.weights[exponent < kMaxWeights ? exponent : kMaxWeights];
 }
 
 template <int32_t kPlanes>
@@ -121,36 +102,28 @@ inline void collect_window(const Ballot& ballot, int32_t x) {
   Bytes center[kPlanes];
   for (int32_t plane = 0; plane < kPlanes; ++plane)
     center[plane] = set16(args.lab[args.radius][x + plane * args.plane_stride]);
-  const int32_t begin = x < args.radius ? 0 : x - args.radius;
+  const int32_t begin = x < args.radius ? x % args.step : x - args.radius;
   const int32_t end = x + args.radius < args.width ? x + args.radius + 1 : args.width;
   for (int32_t dy = -args.radius; dy <= args.radius; dy += args.step) {
-    if (args.levels[dy + args.radius] == nullptr) continue;
-    if (args.step == 1) {
-      collect_row<kPlanes>(ballot, x, dy, begin, end, center);
-      continue;
-    }
-    for (int32_t dx = -args.radius; dx <= args.radius; dx += args.step) {
-      if (x + dx >= 0 && x + dx < args.width) collect_tap<kPlanes>(ballot, x, dy, x + dx);
-    }
-  }
-  for (int32_t set = 1; set < ballot.sets && args.step == 1; ++set) {
-    for (int32_t level = 0; level < args.num_disparities; ++level) {
-      ballot.votes[level] += ballot.votes[set * ballot.set_size + level];
-    }
+    if (args.levels[dy + args.radius] != nullptr) collect_row<kPlanes>(ballot, x, dy, begin, end, center);
   }
 }
 
-// The level below `end` with the most votes, in 1/16 pixel.
-inline uint16_t winning_level(const uint32_t* votes, int32_t end) {
+// The level below `end` with the most votes of all sets, in 1/16 pixel.
+inline uint16_t winning_level(const Ballot& ballot, int32_t end) {
   uint32_t most = 0;
-  uint16_t winner = kNoLevel;
+  int32_t winner = -1;
   for (int32_t level = 0; level < end; ++level) {
-    if (votes[level] > most) {
-      most = votes[level];
-      winner = static_cast<uint16_t>(level << kLevelShift);
+    const uint32_t* votes = ballot.votes + level;
+    uint32_t sum = votes[0];
+    if (ballot.sets == kSets) {
+      BSM_UNROLL
+      for (int32_t set = 1; set < kSets; ++set) sum += votes[set * ballot.set_size];
     }
+    winner = sum > most ? level : winner;
+    most = sum > most ? sum : most;
   }
-  return winner;
+  return winner < 0 ? kNoLevel : static_cast<uint16_t>(winner << kLevelShift);
 }
 
 template <int32_t kPlanes>
@@ -162,8 +135,8 @@ inline void vote_row(const Ballot& ballot) {
     if (levels[x] < kOccluded) continue;
     collect_window<kPlanes>(ballot, x);
     const bool capped = args.cap != nullptr && args.cap[x] < args.num_disparities - 1;
-    args.out[x] = winning_level(ballot.votes, capped ? args.cap[x] + 1 : args.num_disparities);
-    if (capped && args.out[x] == kNoLevel) args.out[x] = winning_level(ballot.votes, args.num_disparities);
+    args.out[x] = winning_level(ballot, capped ? args.cap[x] + 1 : args.num_disparities);
+    if (capped && args.out[x] == kNoLevel) args.out[x] = winning_level(ballot, args.num_disparities);
   }
 }
 
