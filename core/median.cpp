@@ -21,7 +21,10 @@ uint16_t median(uint16_t a, uint16_t b, uint16_t c) {
 struct SortedColumns {
   uint16_t low[kAtOnce + 2], middle[kAtOnce + 2], high[kAtOnce + 2];
 
-  void sort(int32_t i, uint16_t a, uint16_t b, uint16_t c) {
+  void sort(int32_t i, const uint16_t* const rows[3], int32_t x) {
+    const uint16_t a = rows[0][x];
+    const uint16_t b = rows[1][x];
+    const uint16_t c = rows[2][x];
     low[i] = least(least(a, b), c);
     middle[i] = median(a, b, c);
     high[i] = most(most(a, b), c);
@@ -36,14 +39,9 @@ void median_3x3(const uint16_t* const rows[3], int32_t width, uint16_t* out) {
   SortedColumns columns;
   for (int32_t x = 0; x < width; x += kAtOnce) {
     const int32_t count = width - x < kAtOnce ? width - x : kAtOnce;
-    const int32_t before = x == 0 ? 0 : x - 1;
-    const int32_t after = x + count == width ? width - 1 : x + count;
-    const uint16_t* above = rows[0] + x;
-    const uint16_t* center = rows[1] + x;
-    const uint16_t* below = rows[2] + x;
-    for (int32_t i = 0; i < count; ++i) columns.sort(i + 1, above[i], center[i], below[i]);
-    columns.sort(0, rows[0][before], rows[1][before], rows[2][before]);
-    columns.sort(count + 1, rows[0][after], rows[1][after], rows[2][after]);
+    const int32_t beside[2] = {x == 0 ? 0 : x - 1, x + count == width ? width - 1 : x + count};
+    for (int32_t i = 0; i < count; ++i) columns.sort(i + 1, rows, x + i);
+    for (int32_t side = 0; side < 2; ++side) columns.sort(side * (count + 1), rows, beside[side]);
     for (int32_t i = 0; i < count; ++i) {
       out[x + i] = median(most(most(columns.low[i], columns.low[i + 1]), columns.low[i + 2]),
                           median(columns.middle[i], columns.middle[i + 1], columns.middle[i + 2]),

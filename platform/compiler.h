@@ -79,7 +79,7 @@
 #define BSM_MEMSET(to, byte, bytes) __builtin_memset((to), (byte), (bytes))
 #define BSM_RESTRICT __restrict__
 #define BSM_NOINLINE __attribute__((noinline))
-#define BSM_COLD __attribute__((noinline, cold))            // seldom called: made for size
+#define BSM_COLD __attribute__((noinline, cold))            // made for size
 #define BSM_KEEP_ORDER() __asm__ volatile("" ::: "memory")  // loads below stay below: fewer values wait in registers
 #define BSM_INLINE inline __attribute__((always_inline))
 #else

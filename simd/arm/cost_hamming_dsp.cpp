@@ -82,7 +82,8 @@ uint64_t cost_hamming_dsp_scratch(const KernelShape& shape) {
   return static_cast<uint32_t>(shape.bits) / 8;  // a mask of all bits
 }
 
-void cost_hamming_dsp(const CostHammingArgs& args) {
+// For size: what it does around the counts is little.
+BSM_COLD void cost_hamming_dsp(const CostHammingArgs& args) {
   const ptrdiff_t bytes = args.bits / 8;
   const ptrdiff_t step = args.view == 0 ? -bytes : bytes;
   const uint8_t* mask = args.own_mask;
