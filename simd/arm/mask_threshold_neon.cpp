@@ -1,10 +1,13 @@
 // mask_threshold, NEON: sixteen neighbouring pixels at once.
-// The SADs of the window's points saturate at 255; a pair's weight is the maximum of two of them. The threshold is searched
-// bit by bit: a pass counts the pairs within a threshold. Thresholds from 255 on are found exactly, pixel by pixel. Bound,
-// per pair and sixteen pixels: 4 operations and 4 loads, and for each pass 1 load, 1 compare, 1 addition.
+// The SADs of the window's points saturate at 255; a pair's weight is the maximum of two of them. A pass over the pairs of a
+// short descriptor tries eight thresholds, mostly two passes find it; for long ones the threshold is searched bit by bit,
+// 128 pixels at once. Thresholds from 255 on are found exactly, pixel by pixel. Bound for short ones, per pair and sixteen
+// pixels: 4 operations and 4 loads, and for each pass 1 load, 5 operations.
 #include "platform/compiler.h"
 
 #if BSM_ARCH_NEON
+#include "simd/arm/bit_counter.h"
+#include "simd/arm/threshold_bracket.h"
 #include "simd/arm/transpose.h"
 #include "simd/kernels.h"
 #include "simd/pattern_points.h"
@@ -12,30 +15,30 @@
 namespace bsm {
 namespace {
 
-constexpr int32_t kPairsAtOnce = 64;  // that a lane of bytes counts
-constexpr int32_t kLong = 640;        // descriptors of so many bits and more are long
-constexpr int32_t kTile = 128;        // pixels at once for them
+constexpr int32_t kLong = 640;  // descriptors of so many bits and more are long
+constexpr int32_t kTile = 128;  // pixels at once for them
 constexpr int32_t kGroups = kTile / kLanes;
-constexpr int32_t kHighLevels = 7;  // bits of a count from 64 on
+
+constexpr int32_t kEvenPoints = kMaxPoints + 1;  // two at once
 
 struct ShortScratch {
-  uint8_t sad[kMaxPoints][kLanes];
+  uint8_t sad[kEvenPoints][kLanes];
   uint8_t weight[kLong][kLanes];
 };
 
 struct LongScratch {
-  uint8_t sad[kMaxPoints][kTile];
+  uint8_t sad[kEvenPoints][kTile];
   uint8_t within[kMaxPoints][kLanes];  // a bit for each pixel: bit g of byte i for pixel i of group g
   uint8_t octets[8][kGroups][kLanes];  // by byte of 64 pairs, then by group
-  uint8_t high[kHighLevels][kLanes];
 };
 
 struct Scratch {
   uint16_t exact_sad[kMaxPoints];
   uint16_t histogram[kMaxSad + 1];
   PatternPoints points;
-  const uint8_t* point[kMaxPoints];  // first plane of each point, at x = 0
-  uint16_t pairs[BSM_MAX_BITS][2];   // bytes from the first vector of the points to those of p and q
+  const uint8_t* point[kEvenPoints];  // first plane of each point, at x = 0
+  uint16_t pairs[BSM_MAX_BITS][2];    // bytes from the first vector of the points to those of p and q
+  HighLevels high;
   union {
     ShortScratch few;
     LongScratch many;
@@ -49,6 +52,7 @@ void list_points(const MaskThresholdArgs& args, Scratch& scratch) {
   for (int32_t i = 0; i < scratch.points.count; ++i) {
     scratch.point[i] = rows[scratch.points.points[i].dy] + scratch.points.points[i].dx;
   }
+  scratch.point[scratch.points.count] = scratch.point[0];
   constexpr uint32_t kScale = kLanes / 8;  // the numbers of points are 8 apart
   for (int32_t i = 0; i < args.pattern.bits; ++i) {
     scratch.pairs[i][0] = static_cast<uint16_t>(kScale * (scratch.points.pairs[i] & 0xffff));
@@ -56,22 +60,31 @@ void list_points(const MaskThresholdArgs& args, Scratch& scratch) {
   }
 }
 
-// SADs of sixteen pixels and their neighbours at all points, `row` bytes apart in sad.
+template <int32_t kPlanes>
+inline uint8x16_t sad_at(const uint8_t* point, const ptrdiff_t (&offset)[kPlanes], const uint8x16_t (&center)[kPlanes]) {
+  uint8x16_t sum = vabdq_u8(center[0], vld1q_u8(point + offset[0]));
+  BSM_UNROLL
+  for (int32_t i = 1; i < kPlanes; ++i) sum = vqaddq_u8(sum, vabdq_u8(center[i], vld1q_u8(point + offset[i])));
+  return sum;
+}
+
+// SADs of sixteen pixels and their neighbours at all points, `row` bytes apart in sad; of one more when their number is odd.
 template <int32_t kPlanes, ptrdiff_t kRow>
 inline void window_sad(const MaskThresholdArgs& args, int32_t x, const Scratch& scratch, uint8_t* sad) {
-  const uint8_t* own = args.rows[args.pattern.radius] + x;
-  const ptrdiff_t stride = args.plane_stride;
+  const uint8_t* own = args.rows[args.pattern.radius];
+  ptrdiff_t offset[kPlanes];
   uint8x16_t center[kPlanes];
-  for (int32_t i = 0; i < kPlanes; ++i) center[i] = vld1q_u8(own + i * stride);
-  const int32_t count = scratch.points.count;
-  for (int32_t i = 0; i < count; ++i, sad += kRow) {
-    const uint8_t* at = scratch.point[i] + x;
-    uint8x16_t sum = vabdq_u8(center[0], vld1q_u8(at));
-    BSM_UNROLL
-    for (int32_t plane = 1; plane < kPlanes; ++plane) {
-      sum = vqaddq_u8(sum, vabdq_u8(center[plane], vld1q_u8(at + plane * stride)));
-    }
-    vst1q_u8(sad, sum);
+  for (int32_t i = 0; i < kPlanes; ++i) {
+    offset[i] = x + i * args.plane_stride;
+    center[i] = vld1q_u8(own + offset[i]);
+  }
+  const uint8_t* const* point = scratch.point;
+  const uint8_t* const* const end = point + scratch.points.count;
+  for (; point < end; point += 2, sad += 2 * kRow) {
+    const uint8x16_t first = sad_at<kPlanes>(point[0], offset, center);
+    const uint8x16_t second = sad_at<kPlanes>(point[1], offset, center);
+    vst1q_u8(sad, first);
+    vst1q_u8(sad + kRow, second);
   }
 }
 
@@ -80,63 +93,52 @@ inline void window_sad(const MaskThresholdArgs& args, int32_t x, const Scratch& 
   return args.planes == 3 ? window_sad<3, kRow>(args, x, scratch, sad) : window_sad<1, kRow>(args, x, scratch, sad);
 }
 
-inline void pair_weights(Scratch& scratch, int32_t bits) {
-  const uint8_t* sad = scratch.few.sad[0];
-  const uint16_t* pair = scratch.pairs[0];
-  uint8_t* weight = scratch.few.weight[0];
-  uint8_t* const end = weight + bits * kLanes;
-  for (; weight != end; weight += 8 * kLanes, pair += 16) {
-    BSM_UNROLL
-    for (int32_t i = 0; i < 8; ++i) {
-      vst1q_u8(weight + i * kLanes, vmaxq_u8(vld1q_u8(sad + pair[2 * i]), vld1q_u8(sad + pair[2 * i + 1])));
+// Pairs of short descriptors as a pass of the search takes them: a bit for each of eight thresholds. The first pass makes
+// their weights.
+struct NewWeights {
+  const uint8_t* sad;
+  const uint16_t* pairs;
+  uint8_t* weights;
+  Table16 table;
+  BSM_INLINE uint8x16_t operator()(int32_t i) const {
+    const uint8x16_t weight = vmaxq_u8(vld1q_u8(sad + pairs[2 * i]), vld1q_u8(sad + pairs[2 * i + 1]));
+    vst1q_u8(weights + i * kLanes, weight);
+    return look_up(table, vshrq_n_u8(weight, kFirstShift));
+  }
+};
+
+template <int32_t kShift>
+struct OldWeights {
+  const uint8_t* weights;
+  uint8x16_t low;
+  Table16 table;
+  BSM_INLINE uint8x16_t operator()(int32_t i) const {
+    const uint8x16_t above = vqsubq_u8(vld1q_u8(weights + i * kLanes), low);
+    return look_up(table, kShift == 0 ? above : vshrq_n_u8(above, kShift == 0 ? 1 : kShift));
+  }
+};
+
+template <int32_t kShift>
+BSM_NOINLINE uint8x16_t passed_above(Scratch& scratch, int32_t bits, uint8x16_t low) {
+  const Table16 table = load_table16(kShift == 4 ? kEverySecond.within : kEvery.within);
+  return enough(OldWeights<kShift>{scratch.few.weight[0], low, table}, bits, scratch.high);
+}
+
+// T of sixteen pixels; 255 stands for anything from 255 up. Only the pixels whose bytes in `wanted` are set count.
+inline uint8x16_t find_threshold(Scratch& scratch, int32_t bits, uint8x16_t wanted) {
+  const NewWeights weights{scratch.few.sad[0], scratch.pairs[0], scratch.few.weight[0], load_table16(kFirst.within)};
+  Bracket bracket = first_bracket(enough(weights, bits, scratch.high));
+  for (;;) {
+    const uint8_t width = most8(vandq_u8(vsubq_u8(bracket.high, bracket.low), wanted));
+    if (width == 0) return bracket.low;
+    if (width <= 16) {
+      narrow<0>(passed_above<0>(scratch, bits, bracket.low), bracket);
+    } else if (width <= 35) {
+      narrow<2>(passed_above<2>(scratch, bits, bracket.low), bracket);
+    } else {
+      narrow<4>(passed_above<4>(scratch, bits, bracket.low), bracket);
     }
   }
-}
-
-// Where fewer than bits / 4 weights are within the threshold.
-inline uint8x16_t too_few(const Scratch& scratch, int32_t bits, uint8x16_t threshold) {
-  uint16x8_t low = vdupq_n_u16(0);
-  uint16x8_t high = low;
-  for (int32_t first = 0; first < bits; first += kPairsAtOnce) {
-    uint8x16_t count = vdupq_n_u8(0);  // less the pairs
-    const uint8_t* weights = scratch.few.weight[first];
-    for (int32_t i = 0; i < kPairsAtOnce; i += 16, weights += 16 * kLanes) {
-      BSM_UNROLL
-      for (int32_t k = 0; k < 16; ++k) count = vaddq_u8(count, vcleq_u8(vld1q_u8(weights + k * kLanes), threshold));
-    }
-    const uint8x16_t pairs = vsubq_u8(vdupq_n_u8(0), count);
-    low = vaddw_u8(low, vget_low_u8(pairs));
-    high = vaddw_u8(high, vget_high_u8(pairs));
-  }
-  const uint16x8_t wanted = vdupq_n_u16(static_cast<uint16_t>(bits / 4));
-  return vcombine_u8(vmovn_u16(vcltq_u16(low, wanted)), vmovn_u16(vcltq_u16(high, wanted)));
-}
-
-// Where a search for thresholds begins: with a step of 1 << bits when all thresholds lie below it. The bits that the last
-// pixels needed are tried first.
-inline int32_t larger_step(int32_t step) {
-  return step <= 64 ? 4 * step : 256;
-}
-
-inline int32_t bits_of(uint8_t most) {
-  int32_t bits = 3;
-  while (most >> bits != 0) ++bits;
-  return bits;
-}
-
-// T of sixteen pixels; 255 stands for anything from 255 up.
-inline uint8x16_t find_threshold(const Scratch& scratch, int32_t bits, int32_t* top) {
-  int32_t step = 1 << *top;
-  while (step < 256 && most8(too_few(scratch, bits, vdupq_n_u8(static_cast<uint8_t>(step - 1)))) != 0) {
-    step = larger_step(step);
-  }
-  uint8x16_t threshold = vdupq_n_u8(0);
-  for (step /= 2; step != 0; step /= 2) {
-    const uint8x16_t few = too_few(scratch, bits, vaddq_u8(threshold, vdupq_n_u8(static_cast<uint8_t>(step - 1))));
-    threshold = vaddq_u8(threshold, vandq_u8(few, vdupq_n_u8(static_cast<uint8_t>(step))));
-  }
-  *top = bits_of(most8(threshold));
-  return threshold;
 }
 
 BSM_NOINLINE void store_masks(const Scratch& scratch, int32_t bits, uint8x16_t threshold, int32_t pixels, uint8_t* out) {
@@ -193,62 +195,31 @@ void find_within(Scratch& scratch, const uint8x16_t (&threshold)[kGroups]) {
   }
 }
 
-struct Counter {
-  uint8x16_t level[6];  // bits 0..5 of 128 counts
-};
-
-// Adds the bits a and b to a level; returns the carry.
-template <int32_t kLevel>
-inline uint8x16_t add_bits(Counter& counter, uint8x16_t a, uint8x16_t b) {
-  const uint8x16_t old = counter.level[kLevel];
-  const uint8x16_t odd = veorq_u8(a, b);
-  counter.level[kLevel] = veorq_u8(old, odd);
-  return vbslq_u8(odd, old, a);
-}
-
 inline uint8x16_t pair_within(const uint8_t* within, const uint16_t* pair) {
   return vandq_u8(vld1q_u8(within + pair[0]), vld1q_u8(within + pair[1]));
 }
 
-// Counts the next 2 << kLevel pairs; returns the carry.
-template <int32_t kLevel>
-inline uint8x16_t add_pairs(Counter& counter, const uint8_t* within, const uint16_t* pairs) {
-  if constexpr (kLevel == 0) {
-    return add_bits<0>(counter, pair_within(within, pairs), pair_within(within, pairs + 2));
-  } else {
-    const uint8x16_t a = add_pairs<kLevel - 1>(counter, within, pairs);
-    const uint8x16_t b = add_pairs<kLevel - 1>(counter, within, pairs + (2 << kLevel));
-    return add_bits<kLevel>(counter, a, b);
-  }
+// Pairs of long descriptors: a bit for each of 128 pixels.
+struct WithinPairs {
+  const uint8_t* within;
+  const uint16_t* pairs;
+  BSM_INLINE uint8x16_t operator()(int32_t i) const { return pair_within(within, pairs + 2 * i); }
+};
+
+BSM_NOINLINE uint8x16_t enough_within(Scratch& scratch, int32_t bits) {
+  return enough(WithinPairs{scratch.many.within[0], scratch.pairs[0]}, bits, scratch.high);
 }
 
-// A bit for each pixel: at least bits / 4 pairs are within.
-uint8x16_t enough(Scratch& scratch, int32_t bits) {
-  const uint8_t* within = scratch.many.within[0];
-  Counter counter;
-  BSM_UNROLL
-  for (int32_t i = 0; i < 6; ++i) counter.level[i] = vdupq_n_u8(0);
-  for (uint8_t(&level)[kLanes] : scratch.many.high) vst1q_u8(level, vdupq_n_u8(0));
-  for (int32_t first = 0; first < bits; first += 64) {
-    uint8x16_t carry = add_pairs<5>(counter, within, scratch.pairs[first]);
-    for (uint8_t(&level)[kLanes] : scratch.many.high) {
-      const uint8x16_t old = vld1q_u8(level);
-      vst1q_u8(level, veorq_u8(old, carry));
-      carry = vandq_u8(old, carry);
-    }
-  }
-  // Compares with bits / 4 from the lowest bit up.
-  const uint32_t wanted = static_cast<uint32_t>(bits) / 4;
-  uint8x16_t result = vdupq_n_u8(255);
-  BSM_UNROLL
-  for (int32_t i = 0; i < 6; ++i) {
-    result = (wanted >> i & 1u) != 0 ? vandq_u8(result, counter.level[i]) : vorrq_u8(result, counter.level[i]);
-  }
-  for (int32_t i = 0; i < kHighLevels; ++i) {
-    const uint8x16_t level = vld1q_u8(scratch.many.high[i]);
-    result = (wanted >> (6 + i) & 1u) != 0 ? vandq_u8(result, level) : vorrq_u8(result, level);
-  }
-  return result;
+// Where a search for thresholds begins: with a step of 1 << bits when all thresholds lie below it. The bits that the last
+// pixels needed are tried first.
+inline int32_t larger_step(int32_t step) {
+  return step <= 64 ? 4 * step : 256;
+}
+
+inline int32_t bits_of(uint8_t most) {
+  int32_t bits = 3;
+  while (most >> bits != 0) ++bits;
+  return bits;
 }
 
 // True when all pixels of the groups have enough pairs within the threshold.
@@ -257,7 +228,7 @@ bool all_enough(Scratch& scratch, int32_t bits, int32_t groups, uint8_t tested) 
   for (uint8x16_t& t : threshold) t = vdupq_n_u8(tested);
   find_within(scratch, threshold);
   const uint8x16_t others = vdupq_n_u8(static_cast<uint8_t>(0xff << groups));
-  return least8(vorrq_u8(enough(scratch, bits), others)) == 255;
+  return least8(vorrq_u8(enough_within(scratch, bits), others)) == 255;
 }
 
 // T of 128 pixels, as find_threshold. Groups from `groups` on do not count.
@@ -270,7 +241,7 @@ void find_thresholds(Scratch& scratch, int32_t bits, int32_t groups, int32_t* to
     uint8x16_t tested[kGroups];
     for (int32_t g = 0; g < kGroups; ++g) tested[g] = vaddq_u8(threshold[g], below);
     find_within(scratch, tested);
-    const uint8x16_t passed = enough(scratch, bits);
+    const uint8x16_t passed = enough_within(scratch, bits);
     for (int32_t g = 0; g < kGroups; ++g) {
       const uint8x16_t is_enough = vtstq_u8(passed, vdupq_n_u8(static_cast<uint8_t>(1 << g)));
       threshold[g] = vaddq_u8(threshold[g], vbicq_u8(vdupq_n_u8(static_cast<uint8_t>(step)), is_enough));
@@ -330,12 +301,10 @@ BSM_NOINLINE void store_tile(Scratch& scratch, int32_t bits, int32_t pixels, uin
 
 void threshold_short(const MaskThresholdArgs& args, Scratch& scratch) {
   const int32_t bits = args.pattern.bits;
-  int32_t top = 5;
   for (int32_t x = 0; x < args.width; x += kLanes) {
     const int32_t pixels = args.width - x < kLanes ? args.width - x : kLanes;
     window_sad<kLanes>(args, x, scratch, scratch.few.sad[0]);
-    pair_weights(scratch, bits);
-    const uint8x16_t threshold = find_threshold(scratch, bits, &top);
+    const uint8x16_t threshold = find_threshold(scratch, bits, first_lanes(pixels));
     store_masks(scratch, bits, threshold, pixels, args.out + ptrdiff_t{x} * (bits / 8));
     store_beyond(args, x, pixels, threshold, scratch);
   }

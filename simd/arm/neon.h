@@ -117,6 +117,35 @@ inline uint64_t flag_nibbles(uint8x16_t flags) {
   return vget_lane_u64(vreinterpret_u64_u8(vshrn_n_u16(vreinterpretq_u16_u8(flags), 4)), 0);
 }
 
+// The first `count` bytes all ones, the others zeros.
+inline uint8x16_t first_lanes(int32_t count) {
+  alignas(16) static constexpr uint8_t kLane[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  return vcltq_u8(vld1q_u8(kLane), vdupq_n_u8(static_cast<uint8_t>(count)));
+}
+
+// A table of 16 bytes; 0 for indices from 16 on.
+#if defined(__aarch64__)
+using Table16 = uint8x16_t;
+
+inline Table16 load_table16(const uint8_t* from) {
+  return vld1q_u8(from);
+}
+
+inline uint8x16_t look_up(Table16 table, uint8x16_t index) {
+  return vqtbl1q_u8(table, index);
+}
+#else
+using Table16 = uint8x8x2_t;
+
+inline Table16 load_table16(const uint8_t* from) {
+  return Table16{{vld1_u8(from), vld1_u8(from + 8)}};
+}
+
+inline uint8x16_t look_up(Table16 table, uint8x16_t index) {
+  return vcombine_u8(vtbl2_u8(table, vget_low_u8(index)), vtbl2_u8(table, vget_high_u8(index)));
+}
+#endif
+
 // A table of 128 bytes; indices are below 128.
 #if defined(__aarch64__)
 struct Table128 {
