@@ -94,6 +94,15 @@ inline uint32_t least32(uint32x4_t a) {
 #endif
 }
 
+inline uint32_t most32(uint32x4_t a) {
+#if defined(__aarch64__)
+  return vmaxvq_u32(a);
+#else
+  const uint32x2_t most = vpmax_u32(vget_low_u32(a), vget_high_u32(a));
+  return vget_lane_u32(vpmax_u32(most, most), 0);
+#endif
+}
+
 inline uint32_t sum16(uint16x8_t a) {
 #if defined(__aarch64__)
   return vaddlvq_u16(a);

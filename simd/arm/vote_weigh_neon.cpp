@@ -1,7 +1,7 @@
 // vote_weigh, NEON: exponents of eight neighbours at once, weights one by one.
 // Neighbours mostly hold one level: the weights of eight such are added up before they vote; eight without any weight are
-// left out. Bound, per neighbour: extraction, look-up and addition of its weight. Windows whose taps lie apart have few of
-// them and go tap by tap.
+// left out. Bound, per neighbour: extraction, look-up and addition of its weight. Windows whose taps lie apart go tap by
+// tap, for eight pixels at once where at least kFewPixels of them want votes.
 #include "platform/compiler.h"
 
 #if BSM_ARCH_NEON
@@ -12,6 +12,7 @@ namespace bsm {
 namespace {
 
 constexpr int32_t kLanes = 8;
+constexpr int32_t kFewPixels = 3;
 constexpr int32_t kMaxWeights = 1024;
 constexpr int32_t kCenter = BSM_MAX_VOTE_RADIUS + kLanes;
 
@@ -24,7 +25,7 @@ struct Scratch {
 struct Ballot {
   const VoteWeighArgs& args;
   const Scratch& scratch;
-  uint32_t* votes;
+  uint32_t* votes;  // by level; those of the next pixels of a group follow
 };
 
 void prepare(const VoteWeighArgs& args, Scratch& scratch) {
@@ -47,8 +48,30 @@ inline uint32_t sum_weights(const uint16_t* weights, uint16x8_t exponent) {
 }
 
 template <int32_t kLane>
-inline void vote(const Ballot& ballot, uint16x8_t level, uint16x8_t exponent) {
-  ballot.votes[vgetq_lane_u16(level, kLane)] += ballot.scratch.weights[vgetq_lane_u16(exponent, kLane)];
+inline void vote(uint32_t* votes, const uint16_t* weights, uint16x8_t level, uint16x8_t exponent) {
+  votes[vgetq_lane_u16(level, kLane)] += weights[vgetq_lane_u16(exponent, kLane)];
+}
+
+// Eight votes; those of a pixel lie `pixel` after the one before.
+inline void vote_all(uint32_t* votes, ptrdiff_t pixel, const uint16_t* weights, uint16x8_t level, uint16x8_t exponent) {
+  vote<0>(votes, weights, level, exponent);
+  vote<1>(votes + pixel, weights, level, exponent);
+  vote<2>(votes + 2 * pixel, weights, level, exponent);
+  vote<3>(votes + 3 * pixel, weights, level, exponent);
+  vote<4>(votes + 4 * pixel, weights, level, exponent);
+  vote<5>(votes + 5 * pixel, weights, level, exponent);
+  vote<6>(votes + 6 * pixel, weights, level, exponent);
+  vote<7>(votes + 7 * pixel, weights, level, exponent);
+}
+
+// Exponents of eight SADs in table steps.
+inline uint16x8_t color_steps(uint16x8_t sad, uint16x4_t scale) {
+  return vcombine_u16(vrshrn_n_u32(vmull_u16(vget_low_u16(sad), scale), 10),
+                      vrshrn_n_u32(vmull_u16(vget_high_u16(sad), scale), 10));
+}
+
+inline uint16x8_t whole_levels(uint16x8_t sixteenths) {
+  return vshrq_n_u16(vaddq_u16(sixteenths, vdupq_n_u16(8)), kLevelShift);
 }
 
 // Votes of the columns begin..end-1 of row dy.
@@ -67,8 +90,7 @@ inline void collect_row(const Ballot& ballot, int32_t x, int32_t dy, int32_t beg
     for (int32_t plane = 1; plane < kPlanes; ++plane) {
       sad = vabal_u8(sad, center[plane], vld1_u8(lab + plane * args.plane_stride + i));
     }
-    const uint16x8_t steps = vcombine_u16(vrshrn_n_u32(vmull_u16(vget_low_u16(sad), scale), 10),
-                                          vrshrn_n_u32(vmull_u16(vget_high_u16(sad), scale), 10));
+    const uint16x8_t steps = color_steps(sad, scale);
     const uint16x8_t level = vld1q_u16(levels + i);
     uint16x8_t missing = vcgeq_u16(level, vdupq_n_u16(kOccluded));
     if (i + kLanes > end) {  // columns beyond the row
@@ -76,7 +98,7 @@ inline void collect_row(const Ballot& ballot, int32_t x, int32_t dy, int32_t beg
     }
     const uint16x8_t exponent = vminq_u16(vorrq_u16(vqaddq_u16(steps, vld1q_u16(distances + i)), missing), most);
     if (least16(exponent) >= args.weights_count) continue;
-    const uint16x8_t whole = vshrq_n_u16(vaddq_u16(level, vdupq_n_u16(8)), kLevelShift);
+    const uint16x8_t whole = whole_levels(level);
     const uint16_t lowest = least16(vorrq_u16(whole, missing));
     const uint16_t highest = most16(vbicq_u16(whole, missing));
     if (lowest == highest) {
@@ -84,34 +106,62 @@ inline void collect_row(const Ballot& ballot, int32_t x, int32_t dy, int32_t beg
       continue;
     }
     const uint16x8_t voted = vbslq_u16(missing, vdupq_n_u16(lowest), whole);  // with no weight
-    vote<0>(ballot, voted, exponent);
-    vote<1>(ballot, voted, exponent);
-    vote<2>(ballot, voted, exponent);
-    vote<3>(ballot, voted, exponent);
-    vote<4>(ballot, voted, exponent);
-    vote<5>(ballot, voted, exponent);
-    vote<6>(ballot, voted, exponent);
-    vote<7>(ballot, voted, exponent);
+    vote_all(ballot.votes, 0, ballot.scratch.weights, voted, exponent);
   }
 }
 
-// The taps of row dy that lie apart, from begin to end.
+// The tap of pixel x at column `at` of row dy.
 template <int32_t kPlanes>
-inline void collect_taps(const Ballot& ballot, int32_t x, int32_t dy, int32_t begin, int32_t end) {
+inline void collect_tap(const Ballot& ballot, uint32_t* votes, int32_t x, int32_t dy, int32_t at) {
   const VoteWeighArgs& args = ballot.args;
-  const uint16_t* levels = args.levels[dy + args.radius];
+  const uint16_t level = args.levels[dy + args.radius][at];
+  if (level >= kOccluded) return;
   const uint8_t* lab = args.lab[dy + args.radius];
   const uint8_t* own = args.lab[args.radius] + x;
-  const uint16_t* distances = ballot.scratch.distance[dy < 0 ? -dy : dy] + kCenter - x;
-  for (int32_t i = begin; i < end; i += args.step) {
-    if (levels[i] >= kOccluded) continue;
-    uint32_t sad = 0;
-    for (int32_t plane = 0; plane < kPlanes; ++plane) {
-      const int32_t difference = own[plane * args.plane_stride] - lab[plane * args.plane_stride + i];
-      sad += static_cast<uint32_t>(difference < 0 ? -difference : difference);
+  uint32_t sad = 0;
+  for (int32_t plane = 0; plane < kPlanes; ++plane) {
+    const int32_t difference = own[plane * args.plane_stride] - lab[plane * args.plane_stride + at];
+    sad += static_cast<uint32_t>(difference < 0 ? -difference : difference);
+  }
+  const uint16_t distance = ballot.scratch.distance[dy < 0 ? -dy : dy][kCenter + at - x];
+  const uint32_t exponent = ((sad * args.color_scale + 512) >> 10) + distance;
+  if (exponent < kMaxWeights) votes[whole_level(level)] += ballot.scratch.weights[exponent];
+}
+
+// Votes of the pixels x..x + 7 in a window whose taps lie apart.
+template <int32_t kPlanes>
+void collect_group(const Ballot& ballot, int32_t x) {
+  const VoteWeighArgs& args = ballot.args;
+  const ptrdiff_t stride = args.plane_stride;
+  const ptrdiff_t pixel = args.num_disparities;
+  const uint16x4_t scale = vdup_n_u16(static_cast<uint16_t>(args.color_scale));
+  const uint16x8_t most = vdupq_n_u16(kMaxWeights);
+  BSM_MEMSET(ballot.votes, 0, kLanes * sizeof(uint32_t) * static_cast<size_t>(args.num_disparities));
+  uint8x8_t center[kPlanes];
+  for (int32_t plane = 0; plane < kPlanes; ++plane) center[plane] = vld1_u8(args.lab[args.radius] + x + plane * stride);
+  for (int32_t dy = -args.radius; dy <= args.radius; dy += args.step) {
+    const uint16_t* levels = args.levels[dy + args.radius];
+    if (levels == nullptr) continue;
+    const uint8_t* lab = args.lab[dy + args.radius];
+    const uint16_t* distances = ballot.scratch.distance[dy < 0 ? -dy : dy] + kCenter;
+    for (int32_t dx = -args.radius; dx <= args.radius; dx += args.step) {
+      const int32_t at = x + dx;
+      if (at < 0 || at + kLanes > args.width) {  // some lie outside the row, or all
+        for (int32_t i = 0; i < kLanes; ++i) {
+          if (at + i >= 0 && at + i < args.width) collect_tap<kPlanes>(ballot, ballot.votes + i * pixel, x + i, dy, at + i);
+        }
+        continue;
+      }
+      uint16x8_t sad = vabdl_u8(center[0], vld1_u8(lab + at));
+      for (int32_t plane = 1; plane < kPlanes; ++plane) {
+        sad = vabal_u8(sad, center[plane], vld1_u8(lab + plane * stride + at));
+      }
+      const uint16x8_t level = vld1q_u16(levels + at);
+      const uint16x8_t missing = vcgeq_u16(level, vdupq_n_u16(kOccluded));  // whole_levels makes 0 of it
+      const uint16x8_t steps = vqaddq_u16(color_steps(sad, scale), vdupq_n_u16(distances[dx]));
+      const uint16x8_t exponent = vminq_u16(vorrq_u16(steps, missing), most);
+      vote_all(ballot.votes, pixel, ballot.scratch.weights, whole_levels(level), exponent);
     }
-    const uint32_t exponent = ((sad * args.color_scale + 512) >> 10) + distances[i];
-    if (exponent < kMaxWeights) ballot.votes[whole_level(levels[i])] += ballot.scratch.weights[exponent];
   }
 }
 
@@ -131,42 +181,70 @@ void collect_window(const Ballot& ballot, int32_t x) {
     if (args.step == 1) {
       collect_row<kPlanes>(ballot, x, dy, begin, end, center);
     } else {
-      collect_taps<kPlanes>(ballot, x, dy, begin, end);
+      for (int32_t at = begin; at < end; at += args.step) collect_tap<kPlanes>(ballot, ballot.votes, x, dy, at);
     }
   }
 }
 
 // The level below `end` with the most votes, in 1/16 pixel.
 uint16_t winning_level(const uint32_t* votes, int32_t end) {
-  uint32_t most = 0;
-  uint16_t winner = kNoLevel;
-  for (int32_t level = 0; level < end; ++level) {
-    if (votes[level] > most) {
-      most = votes[level];
-      winner = static_cast<uint16_t>(level << kLevelShift);
-    }
-  }
-  return winner;
+  uint32x4_t four = vdupq_n_u32(0);
+  int32_t level = 0;
+  for (; level + 4 <= end; level += 4) four = vmaxq_u32(four, vld1q_u32(votes + level));
+  uint32_t most = most32(four);
+  for (; level < end; ++level) most = votes[level] > most ? votes[level] : most;
+  if (most == 0) return kNoLevel;
+  level = 0;
+  while (votes[level] != most) ++level;
+  return static_cast<uint16_t>(level << kLevelShift);
+}
+
+// The level of pixel x from its votes.
+void elect(const VoteWeighArgs& args, const uint32_t* votes, int32_t x) {
+  const bool capped = args.cap != nullptr && args.cap[x] < args.num_disparities - 1;
+  args.out[x] = winning_level(votes, capped ? args.cap[x] + 1 : args.num_disparities);
+  if (capped && args.out[x] == kNoLevel) args.out[x] = winning_level(votes, args.num_disparities);
+}
+
+// Of the pixels first..first + 7, a bit for each from x on that has no level.
+inline uint32_t missing_levels(const uint16_t* levels, int32_t first, int32_t x) {
+  uint32_t missing = 0;
+  for (int32_t i = x - first; i < kLanes; ++i) missing |= (levels[first + i] >= kOccluded ? 1u : 0u) << i;
+  return missing;
 }
 
 template <int32_t kPlanes>
 void vote_row(const Ballot& ballot) {
   const VoteWeighArgs& args = ballot.args;
   const uint16_t* levels = args.levels[args.radius];
-  for (int32_t x = 0; x < args.width; ++x) {
-    args.out[x] = static_cast<uint16_t>(whole_level(levels[x]) << kLevelShift);
-    if (levels[x] < kOccluded) continue;
-    collect_window<kPlanes>(ballot, x);
-    const bool capped = args.cap != nullptr && args.cap[x] < args.num_disparities - 1;
-    args.out[x] = winning_level(ballot.votes, capped ? args.cap[x] + 1 : args.num_disparities);
-    if (capped && args.out[x] == kNoLevel) args.out[x] = winning_level(ballot.votes, args.num_disparities);
+  for (int32_t x = 0; x < args.width; ++x) args.out[x] = static_cast<uint16_t>(whole_level(levels[x]) << kLevelShift);
+  const bool groups = args.step != 1 && args.width >= kLanes;
+  int32_t x = 0;
+  while (x < args.width) {
+    if (levels[x] < kOccluded) {
+      ++x;
+      continue;
+    }
+    const int32_t first = x + kLanes <= args.width ? x : args.width - kLanes;  // of a group
+    const uint32_t missing = groups ? missing_levels(levels, first, x) : 0;
+    if (__builtin_popcount(missing) < kFewPixels) {
+      collect_window<kPlanes>(ballot, x);
+      elect(args, ballot.votes, x);
+      ++x;
+      continue;
+    }
+    collect_group<kPlanes>(ballot, first);
+    for (int32_t i = 0; i < kLanes; ++i) {
+      if ((missing >> i & 1) != 0) elect(args, ballot.votes + ptrdiff_t{i} * args.num_disparities, first + i);
+    }
+    x = first + kLanes;
   }
 }
 
 }  // namespace
 
 uint64_t vote_weigh_neon_scratch(const KernelShape& shape) {
-  return sizeof(Scratch) + sizeof(uint32_t) * static_cast<uint64_t>(shape.num_disparities + 1);
+  return sizeof(Scratch) + sizeof(uint32_t) * (kLanes * static_cast<uint64_t>(shape.num_disparities) + 1);
 }
 
 void vote_weigh_neon(const VoteWeighArgs& args) {
