@@ -227,7 +227,7 @@ void try_kernel(const Trial& trial, const Kernel<MedianWeightedArgs>& kernel, co
   }
   args.levels = levels.data();
   args.lab = lab.rows;
-  args.color_scale = smooth_color_scale(rng.range(1, 64));
+  args.color_scale = smooth_color_scale(rng.one_in(2) ? rng.range(1, 64) : rng.range(1, 8));
   const int distance = rng.range(1, 64);
   List<uint8_t> steps(trial, (args.radius + 1) * (args.radius + 1));
   for (int dy = 0; dy <= args.radius; ++dy) {

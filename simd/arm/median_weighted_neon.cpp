@@ -1,6 +1,8 @@
 // median_weighted, NEON: sixteen neighbouring pixels at once, tap by tap; groups whose pixels all keep their level are left
-// out. From a pixel's own level the search goes from one level of its window to the next. Bound, per tap and sixteen pixels:
-// 18 operations and 4 loads for the weights, 16 and 4 for the sums, 20 and 8 for each step of the search.
+// out. Where colours that differ by 64 or more weigh nothing, a tap's weights by colour are a table; else they take an
+// exponent. From a pixel's own level the search goes from one level of its window to the next. Bound, per tap and sixteen
+// pixels: 7 operations and 7 loads for the weights from tables, else 18 and 4; 12 and 4 for the sums, 12 and 4 for each step
+// of the search.
 #include "platform/compiler.h"
 
 #if BSM_ARCH_NEON
@@ -16,27 +18,38 @@ constexpr int32_t kMostTaps = (kMostSide * kMostSide + 1) / 2;
 constexpr int32_t kColumns = kLanes + 2 * kMaxMedianRadius;  // that a group looks at
 constexpr ptrdiff_t kPlane = kMostSide * kColumns;           // of a group's own colours
 
-// A pixel of the window: levels and colours of its row, moved by dx.
-struct Tap {
-  const uint16_t* levels;
-  const uint8_t* lab;
-  const uint8_t* inside;  // of a group at an end of the row: all bits set where the tap is in the image
-  uint8_t distance;
+constexpr int32_t kEvenTaps = kMostTaps + kMostTaps % 2;  // the sums take two at once
+constexpr int32_t kColors = 64;                           // of a tap's table
+
+// The pixels of the window: levels and colours of their rows, moved by dx.
+struct Taps {
+  const uint16_t* levels[kEvenTaps];
+  const uint8_t* lab[kMostTaps];
+  const uint8_t* inside[kMostTaps];  // of a group at an end of the row: all bits set where the tap is in the image
 };
 
 struct Scratch {
-  uint8_t weights[kMostTaps][kLanes];
-  Tap row_taps[kMostTaps];  // in the rows, at x = 0
-  Tap end_taps[kMostTaps];  // in the copies below, at the first pixel of the group
+  uint8_t weights[kEvenTaps][kLanes];
+  uint8_t tables[(kMaxMedianRadius + 1) * (kMaxMedianRadius + 1)][kColors];  // as distance_steps
+  const uint8_t* table[kMostTaps];
+  uint8_t distance[kMostTaps];
+  Taps row_taps;  // in the rows, at x = 0
+  Taps end_taps;  // in the copies below, at the first pixel of the group
   uint16_t levels[kMostSide][kColumns];
   uint8_t lab[3 * kPlane];
   uint8_t inside[kColumns];
   uint16_t out[kLanes];
 };
 
+// How colours become weights.
+struct Weighing {
+  Table128 table;
+  bool short_reach;  // the taps' tables hold the weights
+};
+
 // The pixels that a group works on: pointers of taps are `x` pixels before the group's own.
 struct Group {
-  const Tap* taps;
+  const Taps* taps;
   int32_t count;
   ptrdiff_t x;
   ptrdiff_t plane_stride;
@@ -63,62 +76,123 @@ inline uint16x8_t color_steps(uint8x8_t sad, int16_t scale) {
   return vreinterpretq_u16_s16(vqdmulhq_n_s16(shifted, scale));
 }
 
-template <int32_t kPlanes, bool kEnd>
-void weigh_taps(const MedianWeightedArgs& args, const Group& group, const Table128& table, Scratch& scratch) {
-  const int16_t scale = static_cast<int16_t>(args.color_scale);
-  uint8x16_t center[kPlanes];
-  for (int32_t plane = 0; plane < kPlanes; ++plane) center[plane] = vld1q_u8(group.lab + plane * group.plane_stride);
-  for (int32_t i = 0; i < group.count; ++i) {
-    const Tap& tap = group.taps[i];
-    const uint8_t* lab = tap.lab + group.x;
-    uint8x16_t sad = vabdq_u8(center[0], vld1q_u8(lab));
-    for (int32_t plane = 1; plane < kPlanes; ++plane) {
-      sad = vqaddq_u8(sad, vabdq_u8(center[plane], vld1q_u8(lab + plane * group.plane_stride)));
-    }
+// Weights by SAD, saturated at 255.
+struct ByExponent {
+  const Table128& table;
+  const uint8_t* distance;  // by tap
+  int16_t scale;
+  inline uint8x16_t operator()(int32_t tap, uint8x16_t sad) const {
     const uint8x16_t steps =
         vcombine_u8(vqmovn_u16(color_steps(vget_low_u8(sad), scale)), vqmovn_u16(color_steps(vget_high_u8(sad), scale)));
-    const uint8x16_t exponent = vminq_u8(vqaddq_u8(steps, vdupq_n_u8(tap.distance)), vdupq_n_u8(127));
-    uint8x16_t weight = look_up(table, exponent);
-    if (kEnd) weight = vandq_u8(weight, vld1q_u8(tap.inside));
-    vst1q_u8(scratch.weights[i], weight);
+    return look_up(table, vminq_u8(vqaddq_u8(steps, vdupq_n_u8(distance[tap])), vdupq_n_u8(127)));
+  }
+};
+
+struct ByColor {
+  const uint8_t* const* table;  // by tap
+  inline uint8x16_t operator()(int32_t tap, uint8x16_t sad) const { return look_up(load_table64(table[tap]), sad); }
+};
+
+template <int32_t kPlanes, bool kEnd, class Weigh>
+inline void weigh_taps_by(const Group& group, const Weigh& weigh, uint8_t (&weights)[kEvenTaps][kLanes]) {
+  uint8x16_t center[kPlanes];
+  ptrdiff_t offset[kPlanes];
+  BSM_UNROLL
+  for (int32_t plane = 0; plane < kPlanes; ++plane) {
+    center[plane] = vld1q_u8(group.lab + plane * group.plane_stride);
+    offset[plane] = group.x + plane * group.plane_stride;
+  }
+  const Taps& taps = *group.taps;
+  for (int32_t i = 0; i < group.count; ++i) {
+    const uint8_t* lab = taps.lab[i];
+    uint8x16_t sad = vabdq_u8(center[0], vld1q_u8(lab + offset[0]));
+    BSM_UNROLL
+    for (int32_t plane = 1; plane < kPlanes; ++plane) {
+      sad = vqaddq_u8(sad, vabdq_u8(center[plane], vld1q_u8(lab + offset[plane])));
+    }
+    uint8x16_t weight = weigh(i, sad);
+    if (kEnd) weight = vandq_u8(weight, vld1q_u8(taps.inside[i]));
+    vst1q_u8(weights[i], weight);
+  }
+  if (group.count % 2 != 0) vst1q_u8(weights[group.count], vdupq_n_u8(0));
+}
+
+template <int32_t kPlanes, bool kEnd>
+void weigh_taps(const MedianWeightedArgs& args, const Group& group, const Weighing& weighing, Scratch& scratch) {
+  if (weighing.short_reach) {
+    weigh_taps_by<kPlanes, kEnd>(group, ByColor{scratch.table}, scratch.weights);
+  } else {
+    const int16_t scale = static_cast<int16_t>(args.color_scale);
+    weigh_taps_by<kPlanes, kEnd>(group, ByExponent{weighing.table, scratch.distance, scale}, scratch.weights);
   }
 }
+
+// Adds the weight where the flags are set.
+inline uint16x8_t add_where(uint16x8_t sum, uint16x8_t flags, uint16x8_t weight) {
+  return vmlsq_u16(sum, flags, weight);
+}
+
+// Sums of the weights by their levels: below and above the pixel's own.
+struct Sums {
+  uint16x8_t below, above, total;
+
+  inline void add(uint16x8_t own, uint16x8_t level, uint16x8_t weight) {
+    below = add_where(below, vcltq_u16(level, own), weight);
+    above = add_where(above, vcgtq_u16(level, own), weight);
+    total = vaddq_u16(total, weight);
+  }
+};
+
+// A step of the search: the weights below the current level, the next lower level.
+struct Lower {
+  uint16x8_t weight, level;
+
+  inline void add(uint16x8_t current, uint16x8_t other, uint16x8_t its_weight) {
+    const uint16x8_t lower = vcltq_u16(other, current);
+    weight = add_where(weight, lower, its_weight);
+    level = vmaxq_u16(level, vandq_u16(other, lower));
+  }
+};
 
 // Weighted medians of eight pixels.
 uint16x8_t find_medians(const Group& group, const Scratch& scratch, int32_t at, uint16x8_t bonus) {
   const uint16x8_t own = vld1q_u16(group.rows[1] + at);
   const ptrdiff_t offset = group.x + at;
-  uint16x8_t below = vdupq_n_u16(0);
-  uint16x8_t above = below;
-  uint16x8_t total = bonus;
-  for (int32_t i = 0; i < group.count; ++i) {
-    const uint16x8_t level = vld1q_u16(group.taps[i].levels + offset);
-    const uint16x8_t weight = vmovl_u8(vld1_u8(scratch.weights[i] + at));
-    below = vaddq_u16(below, vandq_u16(weight, vcltq_u16(level, own)));
-    above = vaddq_u16(above, vandq_u16(weight, vcgtq_u16(level, own)));
-    total = vaddq_u16(total, weight);
+  const uint16_t* const* levels = group.taps->levels;
+  const uint16_t* const* const end = levels + group.count;
+  const auto level_at = [offset](const uint16_t* tap) { return vld1q_u16(tap + offset); };
+  const auto weight_at = [](const uint8_t* weight) { return vmovl_u8(vld1_u8(weight)); };
+  const uint16x8_t zero = vdupq_n_u16(0);
+  Sums sums{zero, zero, bonus};
+  const uint8_t* weight = scratch.weights[0] + at;
+  for (const uint16_t* const* tap = levels; tap < end; tap += 2, weight += 2 * kLanes) {
+    sums.add(own, level_at(tap[0]), weight_at(weight));
+    sums.add(own, level_at(tap[1]), weight_at(weight + kLanes));
   }
   // The search goes down; where the median is above, in complemented levels. There, the weight below a level may be half.
-  const uint16x8_t up = vcgtq_u16(above, vsubq_u16(total, above));
-  const uint16x8_t down = vcgtq_u16(below, vsubq_u16(total, below));
+  const uint16x8_t up = vcgtq_u16(sums.above, vsubq_u16(sums.total, sums.above));
+  const uint16x8_t down = vcgtq_u16(sums.below, vsubq_u16(sums.total, sums.below));
   uint16x8_t searching = vorrq_u16(up, down);
   uint16x8_t current = veorq_u16(own, up);
-  const uint16x8_t limit = vsubq_u16(total, up);  // total, or total + 1
-  while (most16(searching) != 0) {
-    uint16x8_t next = vdupq_n_u16(0);
-    for (int32_t i = 0; i < group.count; ++i) {
-      const uint16x8_t level = veorq_u16(vld1q_u16(group.taps[i].levels + offset), up);
-      next = vmaxq_u16(next, vandq_u16(level, vcltq_u16(level, current)));
-    }
-    current = vbslq_u16(searching, next, current);
-    below = vdupq_n_u16(0);
-    for (int32_t i = 0; i < group.count; ++i) {
-      const uint16x8_t level = veorq_u16(vld1q_u16(group.taps[i].levels + offset), up);
-      const uint16x8_t weight = vmovl_u8(vld1_u8(scratch.weights[i] + at));
-      below = vaddq_u16(below, vandq_u16(weight, vcltq_u16(level, current)));
-    }
-    searching = vandq_u16(searching, vcgeq_u16(below, vsubq_u16(limit, below)));
+  if (most16(searching) == 0) return own;
+  const uint16x8_t limit = vsubq_u16(sums.total, up);  // total, or total + 1
+  uint16x8_t next = zero;
+  for (const uint16_t* const* tap = levels; tap < end; tap += 2) {
+    const uint16x8_t a = veorq_u16(level_at(tap[0]), up);
+    const uint16x8_t b = veorq_u16(level_at(tap[1]), up);
+    next = vmaxq_u16(next, vmaxq_u16(vandq_u16(a, vcltq_u16(a, current)), vandq_u16(b, vcltq_u16(b, current))));
   }
+  do {
+    current = vbslq_u16(searching, next, current);
+    Lower lower{zero, zero};
+    weight = scratch.weights[0] + at;
+    for (const uint16_t* const* tap = levels; tap < end; tap += 2, weight += 2 * kLanes) {
+      lower.add(current, veorq_u16(level_at(tap[0]), up), weight_at(weight));
+      lower.add(current, veorq_u16(level_at(tap[1]), up), weight_at(weight + kLanes));
+    }
+    next = lower.level;
+    searching = vandq_u16(searching, vcgeq_u16(lower.weight, vsubq_u16(limit, lower.weight)));
+  } while (most16(searching) != 0);
   return veorq_u16(current, up);
 }
 
@@ -129,7 +203,7 @@ inline uint16x8_t trusted(const uint16_t* checked) {
 
 // Sixteen pixels to out; checked: sixteen values.
 template <int32_t kPlanes, bool kEnd>
-void smooth_group(const MedianWeightedArgs& args, const Group& group, const uint16_t* checked, const Table128& table,
+void smooth_group(const MedianWeightedArgs& args, const Group& group, const uint16_t* checked, const Weighing& weighing,
                   Scratch& scratch, uint16_t* out) {
   bool weighed = false;
   for (int32_t at = 0; at < kLanes; at += 8) {
@@ -139,7 +213,7 @@ void smooth_group(const MedianWeightedArgs& args, const Group& group, const uint
       vst1q_u16(out + at, own);
       continue;
     }
-    if (!weighed) weigh_taps<kPlanes, kEnd>(args, group, table, scratch);
+    if (!weighed) weigh_taps<kPlanes, kEnd>(args, group, weighing, scratch);
     weighed = true;
     const uint16x8_t bonus = vandq_u16(trusted(checked + at), vdupq_n_u16(static_cast<uint16_t>(args.own_bonus)));
     vst1q_u16(out + at, vbslq_u16(flat, own, find_medians(group, scratch, at, bonus)));
@@ -153,16 +227,45 @@ int32_t list_taps(const MedianWeightedArgs& args, Scratch& scratch) {
   for (int32_t dy = -radius; dy <= radius; ++dy) {
     const int32_t row = dy + radius;
     if (args.levels[row] == nullptr) continue;
-    const uint8_t* steps = args.distance_steps + ptrdiff_t{dy < 0 ? -dy : dy} * (radius + 1);
+    const int32_t first_step = (dy < 0 ? -dy : dy) * (radius + 1);
     for (int32_t dx = -radius + (row & 1); dx <= radius; dx += 2, ++count) {
-      const uint8_t distance = steps[dx < 0 ? -dx : dx];
+      const int32_t step = first_step + (dx < 0 ? -dx : dx);
       const ptrdiff_t column = dx + radius;
-      scratch.row_taps[count] = Tap{args.levels[row] + dx, args.lab[row] + dx, nullptr, distance};
-      scratch.end_taps[count] =
-          Tap{scratch.levels[row] + column, scratch.lab + row * kColumns + column, scratch.inside + column, distance};
+      scratch.distance[count] = args.distance_steps[step];
+      scratch.table[count] = scratch.tables[step];
+      scratch.row_taps.levels[count] = args.levels[row] + dx;
+      scratch.row_taps.lab[count] = args.lab[row] + dx;
+      scratch.end_taps.levels[count] = scratch.levels[row] + column;
+      scratch.end_taps.lab[count] = scratch.lab + row * kColumns + column;
+      scratch.end_taps.inside[count] = scratch.inside + column;
     }
   }
+  if (count % 2 != 0) {  // one more, that weighs nothing
+    scratch.row_taps.levels[count] = scratch.row_taps.levels[0];
+    scratch.end_taps.levels[count] = scratch.end_taps.levels[0];
+  }
   return count;
+}
+
+// True where the exponents of colours from kColors on are the last one, which weighs nothing.
+inline bool has_short_reach(const MedianWeightedArgs& args) {
+  return args.weights[127] == 0 && (kColors * args.color_scale) >> 8 >= 127;
+}
+
+// The weights of all colours by distance.
+void fill_tables(const MedianWeightedArgs& args, const Table128& table, Scratch& scratch) {
+  alignas(16) static constexpr uint8_t kLane[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  const int32_t count = (args.radius + 1) * (args.radius + 1);
+  const ByExponent weigh{table, args.distance_steps, static_cast<int16_t>(args.color_scale)};
+  for (int32_t i = 0; i < count; ++i) {
+    uint8x16_t weights[kColors / kLanes];
+    uint8x16_t color = vld1q_u8(kLane);
+    for (uint8x16_t& weight : weights) {
+      weight = weigh(i, color);
+      color = vaddq_u8(color, vdupq_n_u8(kLanes));
+    }
+    store_table64(weights, scratch.tables[i]);
+  }
 }
 
 // Copies the columns first..first + count - 1 of a row; outside the row its last pixel is repeated.
@@ -193,10 +296,10 @@ void copy_window(const MedianWeightedArgs& args, int32_t x, Scratch& scratch) {
 
 // A group that needs pixels beyond the row.
 template <int32_t kPlanes>
-void smooth_end(const MedianWeightedArgs& args, int32_t x, int32_t taps, const Table128& table, Scratch& scratch) {
+void smooth_end(const MedianWeightedArgs& args, int32_t x, int32_t taps, const Weighing& weighing, Scratch& scratch) {
   copy_window(args, x, scratch);
   const int32_t radius = args.radius;
-  Group group{scratch.end_taps, taps, 0, kPlane, {}, scratch.lab + radius * kColumns + radius};
+  Group group{&scratch.end_taps, taps, 0, kPlane, {}, scratch.lab + radius * kColumns + radius};
   for (int32_t i = 0; i < 3; ++i) {
     const int32_t row = radius - 1 + i;
     group.rows[i] = args.levels[row] == nullptr ? nullptr : scratch.levels[row] + radius;
@@ -204,26 +307,27 @@ void smooth_end(const MedianWeightedArgs& args, int32_t x, int32_t taps, const T
   const int32_t pixels = args.width - x < kLanes ? args.width - x : kLanes;
   uint16_t checked[kLanes] = {};
   BSM_MEMCPY(checked, args.checked + x, static_cast<size_t>(pixels) * sizeof *checked);
-  smooth_group<kPlanes, true>(args, group, checked, table, scratch, scratch.out);
+  smooth_group<kPlanes, true>(args, group, checked, weighing, scratch, scratch.out);
   BSM_MEMCPY(args.out + x, scratch.out, static_cast<size_t>(pixels) * sizeof *args.out);
 }
 
 template <int32_t kPlanes>
 void smooth_row(const MedianWeightedArgs& args, Scratch& scratch) {
-  const Table128 table = load_table128(args.weights);
+  const Weighing weighing{load_table128(args.weights), has_short_reach(args)};
+  if (weighing.short_reach) fill_tables(args, weighing.table, scratch);
   const int32_t taps = list_taps(args, scratch);
   const int32_t radius = args.radius;
   for (int32_t x = 0; x < args.width; x += kLanes) {
     if (x < radius || x + kLanes + radius > args.width) {
-      smooth_end<kPlanes>(args, x, taps, table, scratch);
+      smooth_end<kPlanes>(args, x, taps, weighing, scratch);
       continue;
     }
-    Group group{scratch.row_taps, taps, x, args.plane_stride, {}, args.lab[radius] + x};
+    Group group{&scratch.row_taps, taps, x, args.plane_stride, {}, args.lab[radius] + x};
     for (int32_t i = 0; i < 3; ++i) {
       const uint16_t* row = args.levels[radius - 1 + i];
       group.rows[i] = row == nullptr ? nullptr : row + x;
     }
-    smooth_group<kPlanes, false>(args, group, args.checked + x, table, scratch, args.out + x);
+    smooth_group<kPlanes, false>(args, group, args.checked + x, weighing, scratch, args.out + x);
   }
 }
 

@@ -155,6 +155,49 @@ inline uint8x16_t look_up(Table16 table, uint8x16_t index) {
 }
 #endif
 
+// A table of 64 bytes; 0 for indices from 64 on. In memory ARMv7 interleaves the bytes, which its compilers load as they
+// are.
+#if defined(__aarch64__)
+using Table64 = uint8x16x4_t;
+
+inline void store_table64(const uint8x16_t (&bytes)[4], uint8_t* to) {
+  for (int32_t i = 0; i < 4; ++i) vst1q_u8(to + 16 * i, bytes[i]);
+}
+
+inline Table64 load_table64(const uint8_t* from) {
+  return vld1q_u8_x4(from);
+}
+
+inline uint8x16_t look_up(const Table64& table, uint8x16_t index) {
+  return vqtbl4q_u8(table, index);
+}
+#else
+struct Table64 {
+  uint8x8x4_t low, high;
+};
+
+inline void store_table64(const uint8x16_t (&bytes)[4], uint8_t* to) {
+  for (int32_t i = 0; i < 2; ++i) {
+    const uint8x16_t a = bytes[2 * i], b = bytes[2 * i + 1];
+    const uint8x8x4_t eights = {{vget_low_u8(a), vget_high_u8(a), vget_low_u8(b), vget_high_u8(b)}};
+    vst4_u8(to + 32 * i, eights);
+  }
+}
+
+inline Table64 load_table64(const uint8_t* from) {
+  return Table64{vld4_u8(from), vld4_u8(from + 32)};
+}
+
+inline uint8x8_t look_up_half(const Table64& table, uint8x8_t index) {
+  const uint8x8_t low = vtbl4_u8(table.low, index);  // 0 from 32 on
+  return vtbx4_u8(low, table.high, vsub_u8(index, vdup_n_u8(32)));
+}
+
+inline uint8x16_t look_up(const Table64& table, uint8x16_t index) {
+  return vcombine_u8(look_up_half(table, vget_low_u8(index)), look_up_half(table, vget_high_u8(index)));
+}
+#endif
+
 // A table of 128 bytes; indices are below 128.
 #if defined(__aarch64__)
 struct Table128 {
