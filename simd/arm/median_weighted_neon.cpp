@@ -6,7 +6,7 @@
 #include "platform/compiler.h"
 
 #if BSM_ARCH_NEON
-#include "simd/arm/neon.h"
+#include "simd/arm/columns.h"
 #include "simd/kernels.h"
 
 namespace bsm {
@@ -15,8 +15,8 @@ namespace {
 constexpr int32_t kLanes = 16;
 constexpr int32_t kMostSide = 2 * kMaxMedianRadius + 1;
 constexpr int32_t kMostTaps = (kMostSide * kMostSide + 1) / 2;
-constexpr int32_t kColumns = kLanes + 2 * kMaxMedianRadius;  // that a group looks at
-constexpr ptrdiff_t kPlane = kMostSide * kColumns;           // of a group's own colours
+constexpr int32_t kColumns = kLanes + 2 * kMaxMedianRadius + kColumnsAtOnce;  // that a group looks at
+constexpr ptrdiff_t kPlane = kMostSide * kColumns;                            // of a group's own colours
 
 constexpr int32_t kEvenTaps = kMostTaps + kMostTaps % 2;  // the sums take two at once
 constexpr int32_t kColors = 64;                           // of a tap's table
@@ -268,14 +268,14 @@ void fill_tables(const MedianWeightedArgs& args, const Table128& table, Scratch&
   }
 }
 
-// Copies the columns first..first + count - 1 of a row; outside the row its last pixel is repeated.
+// Outside the row its last pixel is repeated.
 template <class T>
-inline void copy_columns(const T* row, int32_t width, int32_t first, int32_t count, T* out) {
-  const int32_t begin = first < 0 ? -first : 0;
-  const int32_t end = first + count > width ? width - first : count;
-  for (int32_t i = 0; i < begin; ++i) out[i] = row[0];
-  BSM_MEMCPY(out + begin, row + first + begin, static_cast<size_t>(end - begin) * sizeof(T));
-  for (int32_t i = end; i < count; ++i) out[i] = row[width - 1];
+inline void copy_row(const T* row, int32_t width, int32_t first, int32_t count, T* out) {
+  copy_columns(row, width, first, count, row[0], row[width - 1], out);
+}
+
+inline int32_t within_lanes(int32_t count) {
+  return count < 0 ? 0 : count < kLanes ? count : kLanes;
 }
 
 void copy_window(const MedianWeightedArgs& args, int32_t x, Scratch& scratch) {
@@ -283,14 +283,15 @@ void copy_window(const MedianWeightedArgs& args, int32_t x, Scratch& scratch) {
   const int32_t count = kLanes + 2 * radius;
   for (int32_t row = 0; row <= 2 * radius; ++row) {
     if (args.levels[row] == nullptr) continue;
-    copy_columns(args.levels[row], args.width, x - radius, count, scratch.levels[row]);
+    copy_row(args.levels[row], args.width, x - radius, count, scratch.levels[row]);
     for (int32_t plane = 0; plane < args.planes; ++plane) {
-      copy_columns(args.lab[row] + plane * args.plane_stride, args.width, x - radius, count,
-                   scratch.lab + plane * kPlane + row * kColumns);
+      copy_row(args.lab[row] + plane * args.plane_stride, args.width, x - radius, count,
+               scratch.lab + plane * kPlane + row * kColumns);
     }
   }
-  for (int32_t i = 0; i < count; ++i) {
-    scratch.inside[i] = x - radius + i >= 0 && x - radius + i < args.width ? 0xff : 0;
+  for (int32_t i = 0; i < count; i += kLanes) {
+    const int32_t first = x - radius + i;
+    vst1q_u8(scratch.inside + i, vbicq_u8(first_lanes(within_lanes(args.width - first)), first_lanes(within_lanes(-first))));
   }
 }
 
