@@ -53,10 +53,9 @@ void list_points(const MaskThresholdArgs& args, Scratch& scratch) {
     scratch.point[i] = rows[scratch.points.points[i].dy] + scratch.points.points[i].dx;
   }
   scratch.point[scratch.points.count] = scratch.point[0];
-  constexpr uint32_t kScale = kLanes / 8;  // the numbers of points are 8 apart
-  for (int32_t i = 0; i < args.pattern.bits; ++i) {
-    scratch.pairs[i][0] = static_cast<uint16_t>(kScale * (scratch.points.pairs[i] & 0xffff));
-    scratch.pairs[i][1] = static_cast<uint16_t>(kScale * (scratch.points.pairs[i] >> 16));
+  static_assert(kLanes == 2 * 8, "the numbers of points are 8 apart");
+  for (int32_t i = 0; i < args.pattern.bits; i += 4) {
+    vst1q_u16(scratch.pairs[i], vshlq_n_u16(vreinterpretq_u16_u32(vld1q_u32(scratch.points.pairs + i)), 1));
   }
 }
 

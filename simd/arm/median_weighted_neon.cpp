@@ -103,18 +103,27 @@ inline void weigh_taps_by(const Group& group, const Weigh& weigh, uint8_t (&weig
     offset[plane] = group.x + plane * group.plane_stride;
   }
   const Taps& taps = *group.taps;
-  for (int32_t i = 0; i < group.count; ++i) {
+  const auto weight_of = [&](int32_t i) {
     const uint8_t* lab = taps.lab[i];
     uint8x16_t sad = vabdq_u8(center[0], vld1q_u8(lab + offset[0]));
     BSM_UNROLL
     for (int32_t plane = 1; plane < kPlanes; ++plane) {
       sad = vqaddq_u8(sad, vabdq_u8(center[plane], vld1q_u8(lab + offset[plane])));
     }
-    uint8x16_t weight = weigh(i, sad);
-    if (kEnd) weight = vandq_u8(weight, vld1q_u8(taps.inside[i]));
-    vst1q_u8(weights[i], weight);
+    const uint8x16_t weight = weigh(i, sad);
+    return kEnd ? vandq_u8(weight, vld1q_u8(taps.inside[i])) : weight;
+  };
+  int32_t i = 0;
+  for (; i + 1 < group.count; i += 2) {
+    const uint8x16_t first = weight_of(i);
+    const uint8x16_t second = weight_of(i + 1);
+    vst1q_u8(weights[i], first);
+    vst1q_u8(weights[i + 1], second);
   }
-  if (group.count % 2 != 0) vst1q_u8(weights[group.count], vdupq_n_u8(0));
+  if (i < group.count) {
+    vst1q_u8(weights[i], weight_of(i));
+    vst1q_u8(weights[i + 1], vdupq_n_u8(0));
+  }
 }
 
 template <int32_t kPlanes, bool kEnd>

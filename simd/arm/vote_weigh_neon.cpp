@@ -31,7 +31,7 @@ struct Ballot {
 void prepare(const VoteWeighArgs& args, Scratch& scratch) {
   BSM_MEMSET(scratch.weights, 0, sizeof scratch.weights);
   BSM_MEMCPY(scratch.weights, args.weights, sizeof(uint16_t) * static_cast<size_t>(args.weights_count));
-  for (int32_t dy = 0; dy <= args.radius; ++dy) {
+  for (int32_t dy = 0; dy <= args.radius; dy += args.step) {
     BSM_MEMSET(scratch.distance[dy], 0xff, sizeof scratch.distance[dy]);
     const uint16_t* steps = args.distance_steps + ptrdiff_t{dy} * (args.radius + 1);
     for (int32_t dx = 0; dx <= args.radius; ++dx) {
@@ -213,18 +213,28 @@ inline uint32_t missing_levels(const uint16_t* levels, int32_t first, int32_t x)
   return missing;
 }
 
+// All levels to whole ones.
+void round_levels(const uint16_t* levels, int32_t width, uint16_t* out) {
+  int32_t x = 0;
+  for (; x + kLanes <= width; x += kLanes) vst1q_u16(out + x, vshlq_n_u16(whole_levels(vld1q_u16(levels + x)), kLevelShift));
+  for (; x < width; ++x) out[x] = static_cast<uint16_t>(whole_level(levels[x]) << kLevelShift);
+}
+
+// The first pixel from x on without a level; the width when there is none.
+inline int32_t next_missing(const uint16_t* levels, int32_t x, int32_t width) {
+  while (x + kLanes <= width && most16(vld1q_u16(levels + x)) < kOccluded) x += kLanes;
+  while (x < width && levels[x] < kOccluded) ++x;
+  return x;
+}
+
 template <int32_t kPlanes>
 void vote_row(const Ballot& ballot) {
   const VoteWeighArgs& args = ballot.args;
   const uint16_t* levels = args.levels[args.radius];
-  for (int32_t x = 0; x < args.width; ++x) args.out[x] = static_cast<uint16_t>(whole_level(levels[x]) << kLevelShift);
+  round_levels(levels, args.width, args.out);
   const bool groups = args.step != 1 && args.width >= kLanes;
   int32_t x = 0;
-  while (x < args.width) {
-    if (levels[x] < kOccluded) {
-      ++x;
-      continue;
-    }
+  while ((x = next_missing(levels, x, args.width)) < args.width) {
     const int32_t first = x + kLanes <= args.width ? x : args.width - kLanes;  // of a group
     const uint32_t missing = groups ? missing_levels(levels, first, x) : 0;
     if (__builtin_popcount(missing) < kFewPixels) {
