@@ -171,8 +171,13 @@ double bound_cycles(const Core& core, const EdgeThresholdArgs& args) {
   return cycles(core, args.width / lanes(core, 1) * pixel);
 }
 
-// Both paths, each with its costs; their sum is written, read, added to and written again.
+// Both paths, each with its costs; their sum is written, read, added to and written again. NEON in bytes, where the largest
+// cost and twice P2 fit one: costs are narrowed, the first path waits in bytes, sums are made once, by 2 operations.
 double bound_cycles(const Core& core, const AggregateAlongArgs& args) {
+  if (is(core, "neon") && args.most_cost + 2 * std::max(args.penalties[0].p2, args.penalties[1].p2) <= 254) {
+    const Effort sixteen = 2.0 * (kPathStep + Effort{1, 1, 0, 0}) + Effort{2, 1, 3, 0};
+    return cycles(core, args.width * (args.num_disparities / lanes(core, 1) * sixteen + 2.0 * path_pixel(core)));
+  }
   const double registers = args.num_disparities / lanes(core, 2);
   const Effort pixel = registers * (2.0 * kPathStep + Effort{1, 1, 2, 0}) + 2.0 * path_pixel(core);
   return cycles(core, args.width * pixel);
@@ -215,23 +220,27 @@ double bound_cycles(const Core& core, const VoteWeighArgs& args) {
 }
 
 // Every second pixel of the window, were all blocks looked at and all levels right: colours (three distances, two
-// additions), a look-up of 4 (a table of 64 in a register) or 16 (four of 16), two compares, two masked additions and one
-// more in both halves of a vector. Blocks that are flat are passed over, pixels that move walk on: rows decide which weighs
-// more.
+// additions), a look-up of 4 (a table of 64 in a register) or 16 (four of 16), of 1 from the tap's own table on NEON, two
+// compares, two masked additions and one more in both halves of a vector. Blocks that are flat are passed over, pixels that
+// move walk on: rows decide which weighs more.
 double bound_cycles(const Core& core, const MedianWeightedArgs& args) {
   const int32_t side = 2 * args.radius + 1;
   const double taps = (side * side + 1) / 2;
   const double colours = args.planes * core.distance + args.planes - 1;
   if (is(core, "scalar")) return cycles(core, args.width * taps * Effort{colours + 3 + 5, 1.0 * args.planes + 3, 0, 0});
-  const double look_up = is(core, "avx512") ? 4 : 16;
-  return cycles(core, args.width / lanes(core, 1) * taps * Effort{colours + look_up + 2 * 5, args.planes + 3.0, 0, 0});
+  const double look_up = is(core, "avx512") ? 4 : is(core, "neon") ? 1 : 16;
+  const double loads = args.planes + (is(core, "neon") ? 4 + 3.0 : 3.0);
+  return cycles(core, args.width / lanes(core, 1) * taps * Effort{colours + look_up + 2 * 5, loads, 0, 0});
 }
 
 // 25 neighbours: 2 loads, and widening, difference, range (3), two masks, product and two additions; the reciprocal (by
-// tables of bytes) and the rounding take 25 more.
+// tables of bytes) and the rounding take 25 more. NEON takes sixteen at once: differences (2), their bytes (2), range (2),
+// mask, two products and an addition.
 double bound_cycles(const Core& core, const FractionSmoothArgs& args) {
   constexpr double kTaps = (2 * kFractionRadius + 1) * (2 * kFractionRadius + 1);
   if (is(core, "scalar")) return cycles(core, args.width * (kTaps * Effort{6, 2, 0, 0} + Effort{4, 1, 1, 0}));
+  if (is(core, "neon"))
+    return cycles(core, args.width / lanes(core, 1) * (kTaps * Effort{10, 3, 0, 0} + Effort{25, 8, 2, 0}));
   return cycles(core, args.width / lanes(core, 2) * (kTaps * Effort{8, 2, 0, 0} + Effort{25, 8, 1, 0}));
 }
 
