@@ -26,6 +26,12 @@ inline const T* one_address(const T* address) {
   return address;
 }
 
+// A vector after a branch: its lanes are not taken out before.
+inline uint16x8_t taken_here(uint16x8_t vector) {
+  __asm__ volatile("" : "+w"(vector));
+  return vector;
+}
+
 // Sums of neighbouring lanes: those of a in the lower half of the result, those of b in the upper one.
 inline uint8x16_t add_pairs8(uint8x16_t a, uint8x16_t b) {
 #if defined(__aarch64__)

@@ -96,8 +96,9 @@ inline void collect_row(const Ballot& ballot, int32_t x, int32_t dy, int32_t beg
     if (i + kLanes > end) {  // columns beyond the row
       missing = vorrq_u16(missing, vcgeq_u16(vld1q_u16(kColumn), vdupq_n_u16(static_cast<uint16_t>(end - i))));
     }
-    const uint16x8_t exponent = vminq_u16(vorrq_u16(vqaddq_u16(steps, vld1q_u16(distances + i)), missing), most);
+    uint16x8_t exponent = vminq_u16(vorrq_u16(vqaddq_u16(steps, vld1q_u16(distances + i)), missing), most);
     if (least16(exponent) >= args.weights_count) continue;
+    exponent = taken_here(exponent);
     const uint16x8_t whole = whole_levels(level);
     const uint16_t lowest = least16(vorrq_u16(whole, missing));
     const uint16_t highest = most16(vbicq_u16(whole, missing));
@@ -105,7 +106,7 @@ inline void collect_row(const Ballot& ballot, int32_t x, int32_t dy, int32_t beg
       ballot.votes[lowest] += sum_weights(ballot.scratch.weights, exponent);
       continue;
     }
-    const uint16x8_t voted = vbslq_u16(missing, vdupq_n_u16(lowest), whole);  // with no weight
+    const uint16x8_t voted = taken_here(vbslq_u16(missing, vdupq_n_u16(lowest), whole));  // with no weight
     vote_all(ballot.votes, 0, ballot.scratch.weights, voted, exponent);
   }
 }
