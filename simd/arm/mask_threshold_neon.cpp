@@ -186,10 +186,13 @@ void find_within(Scratch& scratch, const uint8x16_t (&threshold)[kGroups]) {
   const uint8_t* sad = scratch.many.sad[0];
   uint8_t* within = scratch.many.within[0];
   const int32_t count = scratch.points.count;
+  uint8x16_t most[kGroups];  // in registers: stores of bytes may change what lies in memory
+  BSM_UNROLL
+  for (int32_t g = 0; g < kGroups; ++g) most[g] = threshold[g];
   for (int32_t i = 0; i < count; ++i, sad += kTile, within += kLanes) {
     uint8x16_t group[kGroups];
     BSM_UNROLL
-    for (int32_t g = 0; g < kGroups; ++g) group[g] = vcleq_u8(vld1q_u8(sad + g * kLanes), threshold[g]);
+    for (int32_t g = 0; g < kGroups; ++g) group[g] = vcleq_u8(vld1q_u8(sad + g * kLanes), most[g]);
     vst1q_u8(within, gather_bits(group));
   }
 }
