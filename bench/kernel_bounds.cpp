@@ -145,7 +145,8 @@ double bound_cycles(const Core& core, const MatchHammingArgs& args) {
 
 // The same under one view's mask, every cost written. AVX-512: a lane for each of eight candidates, whose sums one move puts
 // into 16 bits and in order. AVX2: of 16 candidates, 8 vectors of counts are packed to one by 7 moves and added in pairs by
-// 1; 128 bits need two such groups of 8 and 2 moves to put candidates in order, 256 bits twice that and 2 more.
+// 1; 128 bits need two such groups of 8 and 2 moves to put candidates in order, 256 bits twice that and 2 more. Other
+// lengths take four candidates at once as in match_hamming, and 3 operations to put their sums into 16 bits and in order.
 double bound_cycles(const Core& core, const CostHammingArgs& args) {
   const double count = candidates(args.width, args.num_disparities);
   const double words = args.bits / 64.0;
@@ -158,7 +159,7 @@ double bound_cycles(const Core& core, const CostHammingArgs& args) {
   if (is(core, "avx512")) return cycles(core, count / 8 * (words * Effort{3, 2, 0, 1} + Effort{1 - 1, 0, 1, 1}));
   if (is(core, "avx2")) {
     if (args.bits != 128 && args.bits != 256)
-      return cycles(scalar, count * (words * Effort{4, loads, 0, 1} + Effort{1, 0, 1, 0}));
+      return cycles(core, count / 4 * (words / 4 * Effort{8 + 3 * 5 + 7, 12, 0, 0} + Effort{18 + 3, 0, 1, 0}));
     const double groups = args.bits / 128.0;
     return cycles(core, count / per_store * (per_store * vectors * Effort{9, 1, 0, 0} + Effort{8 * groups + 5, 0, 1, 0}));
   }

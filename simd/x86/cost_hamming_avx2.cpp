@@ -1,12 +1,15 @@
 // cost_hamming, AVX2, POPCNT: descriptors of 128 and 256 bits take 16 candidates at once, neighbours in the other view's
-// row; others, and levels at the ends of the row, go by 64-bit words. Set bits are looked up by half bytes. Bound, per 256
-// bits of candidates: 1 load, 9 operations; 13 to add up 16 candidates.
+// row, and go by 64-bit words at the ends of the row. Set bits are looked up by half bytes. Bound, per 256 bits of
+// candidates: 1 load, 9 operations; 13 to add up 16 candidates.
+// Other lengths take four pixels of the other view against own pixels one after the other, as in match_hamming. Bound for
+// four candidates, by four words: 8, 3 carry-save additions of 5, a count of 6, an addition; once 18, and 3 to 16 bits.
 #include "platform/compiler.h"
 
 #if BSM_ARCH_X86_64
 #include "simd/x86/levels_avx2.h"
 
 #include "simd/x86/cost_hamming_words.h"
+#include "simd/x86/hamming_avx2.h"
 
 namespace bsm {
 namespace {
@@ -63,7 +66,7 @@ inline Bytes reverse(Bytes a) {
   return _mm256_permute2x128_si256(lanes, lanes, 1);
 }
 
-// kWords: 2 or 4 take 16 candidates at once; 0: any number.
+// kWords: 2 or 4.
 template <int32_t kWords>
 void count_row(const CostHammingArgs& row) {
   const CostHammingArgs args = row;  // a copy, which the costs written cannot change
@@ -73,15 +76,13 @@ void count_row(const CostHammingArgs& row) {
   for (int32_t x = 0; x < args.width; ++x) {
     const uint8_t* bits = args.own + ptrdiff_t{x} * bytes;
     const uint8_t* mask = args.own_mask == nullptr ? nullptr : args.own_mask + ptrdiff_t{x} * bytes;
-    Own own{zero(), ones()};
-    if (kWords != 0) own.bits = repeat<kWords>(bits);
-    if (kWords != 0 && mask != nullptr) own.mask = repeat<kWords>(mask);
+    const Own own{repeat<kWords>(bits), mask == nullptr ? ones() : repeat<kWords>(mask)};
     const LevelRange levels = candidate_levels(args, x);
     for (int32_t level = 0; level < args.stride; level += kAtOnce) {
       uint16_t* costs = args.cost + ptrdiff_t{x} * args.stride + level;
       const int32_t disparity = args.min_disparity + level;
       const int32_t first = descending ? x - disparity - (kAtOnce - 1) : x + disparity;
-      if (kWords != 0 && 0 <= first && first <= args.width - kAtOnce && level < args.num_disparities) {
+      if (0 <= first && first <= args.width - kAtOnce && level < args.num_disparities) {
         Bytes cost = count_sixteen<kWords>(own, args.other + ptrdiff_t{first} * bytes);
         if (descending) cost = reverse(cost);
         store(costs, level + kAtOnce <= args.num_disparities ? cost : either(cost, last.padding));
@@ -98,10 +99,70 @@ void count_row(const CostHammingArgs& row) {
   }
 }
 
+// Costs of the lanes against one own pixel, by 64-bit word.
+template <bool kMasked>
+inline __m256i count_lanes(const Block& block, View own, ptrdiff_t bytes) {
+  Counter counter;
+  const auto word = [&](ptrdiff_t i) {
+    const __m256i differing = _mm256_xor_si256(every_word(own.descriptors + 8 * i), _mm256_load_si256(block.words + i));
+    return kMasked ? _mm256_and_si256(differing, every_word(own.masks + 8 * i)) : differing;
+  };
+  ptrdiff_t i = 0;
+  for (; i + 4 <= bytes / 8; i += 4) {
+    const __m256i words[4] = {word(i), word(i + 1), word(i + 2), word(i + 3)};
+    counter.add_four(words);
+  }
+  for (; i < bytes / 8; ++i) counter.add(word(i));
+  return counter.sum_of_fours();
+}
+
+// Sets all costs of a pixel to none.
+inline void clear(const CostHammingArgs& args, int32_t x) {
+  uint16_t* costs = args.cost + ptrdiff_t{x} * args.stride;
+  for (int32_t level = 0; level < args.stride; level += kAtOnce) store(costs + level, ones());
+}
+
+template <bool kMasked>
+BSM_NOINLINE void count_blocks(const CostHammingArgs& row) {
+  const CostHammingArgs args = row;  // a copy, which the costs written cannot change
+  const ptrdiff_t bytes = args.bits / 8;
+  const bool descending = args.view == 0;
+  const int32_t step = descending ? 1 : -1;
+  const __m128i order = descending ? _mm_setr_epi8(12, 13, 8, 9, 4, 5, 0, 1, -1, -1, -1, -1, -1, -1, -1, -1)
+                                   : _mm_setr_epi8(0, 1, 4, 5, 8, 9, 12, 13, -1, -1, -1, -1, -1, -1, -1, -1);
+  int32_t cleared = 0;
+  for (int32_t first = 0; first < args.width; first += kPixels) {
+    const int32_t pixels = args.width - first < kPixels ? args.width - first : kPixels;
+    const Block block(args.other + first * bytes, pixels, bytes, static_cast<__m256i*>(args.scratch));
+    // Own pixel x has the levels base + step * x and the next three, the last pixel's first when descending.
+    const int32_t base = descending ? -args.min_disparity - first - (kPixels - 1) : first - args.min_disparity;
+    const int32_t least = descending ? first + args.min_disparity : base - args.num_disparities + 1;
+    const Span span(args.width, least, args.num_disparities, pixels, kPixels);
+    for (; cleared < span.end; ++cleared) clear(args, cleared);
+    for (int32_t x = span.begin; x < span.end; ++x) {
+      const __m256i sums = count_lanes<kMasked>(block, View{args.own, args.own_mask}.from(x * bytes), bytes);
+      const __m128i pairs = _mm_packus_epi32(_mm256_castsi256_si128(sums), _mm256_extracti128_si256(sums, 1));
+      const uint64_t four = static_cast<uint64_t>(_mm_cvtsi128_si64(_mm_shuffle_epi8(pairs, order)));
+      const int32_t level = base + step * x;
+      uint16_t* costs = args.cost + ptrdiff_t{x} * args.stride + level;
+      if (span.all_begin <= x && x < span.all_end) {
+        BSM_MEMCPY(costs, &four, sizeof four);
+        continue;
+      }
+      for (int32_t i = 0; i < kPixels; ++i) {
+        const int32_t pixel = descending ? kPixels - 1 - i : i;
+        const bool candidate = pixel < pixels && 0 <= level + i && level + i < args.num_disparities;
+        if (candidate) costs[i] = static_cast<uint16_t>(four >> (16 * i));
+      }
+    }
+  }
+  for (; cleared < args.width; ++cleared) clear(args, cleared);
+}
+
 }  // namespace
 
-uint64_t cost_hamming_avx2_scratch(const KernelShape&) {
-  return 0;
+uint64_t cost_hamming_avx2_scratch(const KernelShape& shape) {
+  return sizeof(__m256i) * static_cast<uint64_t>(shape.bits / 64);
 }
 
 void cost_hamming_avx2(const CostHammingArgs& args) {
@@ -111,7 +172,7 @@ void cost_hamming_avx2(const CostHammingArgs& args) {
     case 4:
       return count_row<4>(args);
     default:
-      return count_row<0>(args);
+      return args.own_mask == nullptr ? count_blocks<false>(args) : count_blocks<true>(args);
   }
 }
 

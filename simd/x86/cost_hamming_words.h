@@ -8,15 +8,10 @@
 
 #include "platform/compiler.h"
 #include "simd/kernels.h"
+#include "simd/x86/hamming_blocks.h"
 
 namespace bsm {
 namespace {
-
-inline uint64_t load_word(const uint8_t* bytes) {
-  uint64_t word;
-  BSM_MEMCPY(&word, bytes, sizeof word);
-  return word;
-}
 
 // Candidates first..last of one pixel; `other` is the first one's descriptor, `step` leads to the next.
 struct Candidates {

@@ -14,83 +14,18 @@
 #include <immintrin.h>
 
 #include "simd/kernels.h"
-#include "simd/x86/hamming_blocks.h"
+#include "simd/x86/hamming_avx2.h"
 
 namespace bsm {
 namespace {
 
-constexpr int32_t kPixels = 4;  // of a block: lanes
+// Four right pixels: their descriptors and masks.
+struct RightPixels {
+  Block words, masks;
 
-inline int64_t load_lane(const uint8_t* word) {
-  return static_cast<int64_t>(load_word(word));
-}
-
-inline __m256i every_word(const uint8_t* word) {
-  return _mm256_set1_epi64x(load_lane(word));
-}
-
-// Set bits of each byte.
-inline __m256i count_bytes(__m256i bits) {
-  const __m256i counts =
-      _mm256_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4, 0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4);
-  const __m256i nibble = _mm256_set1_epi8(15);
-  const __m256i low = _mm256_shuffle_epi8(counts, _mm256_and_si256(bits, nibble));
-  const __m256i high = _mm256_shuffle_epi8(counts, _mm256_and_si256(_mm256_srli_epi16(bits, 4), nibble));
-  return _mm256_add_epi8(low, high);
-}
-
-// Counts of a view's words: bytes of up to 31 words, or with `fours` bits of one and of two and bytes of four, of 4 * 31
-// words.
-struct Counter {
-  __m256i bytes, ones, twos, fours;
-
-  Counter() : bytes(_mm256_setzero_si256()), ones(bytes), twos(bytes), fours(bytes) {}
-
-  void add(__m256i word) { bytes = _mm256_add_epi8(bytes, count_bytes(word)); }
-  void add_four(const __m256i (&words)[4]) {
-    const __m256i a = carry(ones, words[0], words[1]);
-    const __m256i b = carry(ones, words[2], words[3]);
-    fours = _mm256_add_epi8(fours, count_bytes(carry(twos, a, b)));
-  }
-  // Sums of each lane.
-  __m256i sum() const { return _mm256_sad_epu8(bytes, _mm256_setzero_si256()); }
-  __m256i sum_of_fours() const {
-    const __m256i two = count_bytes(twos);
-    const __m256i few = _mm256_add_epi8(_mm256_add_epi8(two, two), _mm256_add_epi8(count_bytes(ones), bytes));
-    const __m256i zero = _mm256_setzero_si256();
-    return _mm256_add_epi64(_mm256_sad_epu8(few, zero), _mm256_slli_epi64(_mm256_sad_epu8(fours, zero), 2));
-  }
-
- private:
-  // Adds two bits to one of the same weight and returns those of twice the weight.
-  static __m256i carry(__m256i& sum, __m256i a, __m256i b) {
-    const __m256i differing = _mm256_xor_si256(sum, a);
-    const __m256i carried = _mm256_or_si256(_mm256_and_si256(sum, a), _mm256_and_si256(differing, b));
-    sum = _mm256_xor_si256(differing, b);
-    return carried;
-  }
-};
-
-// Four right pixels: word i of their descriptors and of their masks.
-struct Block {
-  __m256i* words;
-  __m256i* masks;
-
-  // Of the first `pixels` of them the last one fills the lanes behind it.
-  Block(View right, int32_t pixels, ptrdiff_t bytes, __m256i* memory) : words(memory), masks(memory + bytes / 8) {
-    split(right.descriptors, pixels, bytes, words);
-    split(right.masks == nullptr ? right.descriptors : right.masks, pixels, bytes, masks);
-  }
-
- private:
-  static void split(const uint8_t* from, int32_t pixels, ptrdiff_t bytes, __m256i* to) {
-    const uint8_t* lane[kPixels];
-    for (int32_t i = 0; i < kPixels; ++i) lane[i] = from + (i < pixels ? i : pixels - 1) * bytes;
-    for (ptrdiff_t at = 0; at < bytes; at += 8) {
-      _mm256_store_si256(to + at / 8, _mm256_setr_epi64x(load_lane(lane[0] + at), load_lane(lane[1] + at),
-                                                         load_lane(lane[2] + at), load_lane(lane[3] + at)));
-    }
-  }
+  RightPixels(View right, int32_t pixels, ptrdiff_t bytes, __m256i* memory)
+      : words(right.descriptors, pixels, bytes, memory),
+        masks(right.masks == nullptr ? right.descriptors : right.masks, pixels, bytes, memory + bytes / 8) {}
 };
 
 // Costs of the lanes against one left pixel, by 64-bit word.
@@ -100,12 +35,13 @@ struct Costs {
 
 // kWords: words of a descriptor, few; 0 for any number.
 template <bool kMasked, int32_t kWords>
-BSM_INLINE Costs count(const Block& block, View left, ptrdiff_t bytes) {
+BSM_INLINE Costs count(const RightPixels& right, View left, ptrdiff_t bytes) {
   Counter left_counter, right_counter;
   const auto word = [&](ptrdiff_t i, __m256i& own, __m256i& other) {
-    const __m256i differing = _mm256_xor_si256(every_word(left.descriptors + 8 * i), _mm256_load_si256(block.words + i));
+    const __m256i differing =
+        _mm256_xor_si256(every_word(left.descriptors + 8 * i), _mm256_load_si256(right.words.words + i));
     own = kMasked ? _mm256_and_si256(differing, every_word(left.masks + 8 * i)) : differing;
-    other = kMasked ? _mm256_and_si256(differing, _mm256_load_si256(block.masks + i)) : differing;
+    other = kMasked ? _mm256_and_si256(differing, _mm256_load_si256(right.masks.words + i)) : differing;
   };
   __m256i own[4], other[4];
   if constexpr (kWords != 0) {
@@ -159,13 +95,13 @@ struct Meeting {
 // Compares left pixels begin .. end - 1 and returns the block's least keys, `best` so far. A vector of keys holds the left
 // view's in the lower halves of its words, the right view's in the upper. kWhole: all pixels of the block are candidates.
 template <bool kWhole, bool kMasked, int32_t kWords>
-inline __m256i compare(const Block& block, View left, ptrdiff_t bytes, Meeting meeting, int32_t begin, int32_t end,
+inline __m256i compare(const RightPixels& right, View left, ptrdiff_t bytes, Meeting meeting, int32_t begin, int32_t end,
                        __m256i* left_best, __m256i best) {
   if (kWords != 0) bytes = 8 * kWords;
   __m256i levels = meeting.levels(begin);
   left = left.from(begin * bytes);
   for (int32_t x = begin; x < end; ++x, left = left.from(bytes)) {
-    const Costs costs = count<kMasked, kWords>(block, left, bytes);
+    const Costs costs = count<kMasked, kWords>(right, left, bytes);
     const __m256i both = _mm256_or_si256(_mm256_slli_epi64(costs.left, 16), _mm256_slli_epi64(costs.right, 48));
     __m256i keys = _mm256_or_si256(both, levels);
     if (!kWhole) keys = _mm256_or_si256(keys, meeting.no_candidates(levels));
@@ -194,7 +130,7 @@ BSM_NOINLINE void match_row(const MatchHammingArgs& row) {
     const int32_t pixels = args.width - first < kPixels ? args.width - first : kPixels;
     const Meeting meeting{first + args.min_disparity, pixels, args.num_disparities};
     const Span span(args.width, meeting.left, args.num_disparities, pixels, kPixels);
-    const Block block(right.from(first * bytes), pixels, bytes, left_best + args.width);
+    const RightPixels block(right.from(first * bytes), pixels, bytes, left_best + args.width);
     __m256i best = _mm256_set1_epi32(-1);
     best = compare<false, kMasked, kWords>(block, left, bytes, meeting, span.begin, span.all_begin, left_best, best);
     best = compare<true, kMasked, kWords>(block, left, bytes, meeting, span.all_begin, span.all_end, left_best, best);
