@@ -12,7 +12,7 @@ cross() {
   echo "== $suite: building in $build"
   mkdir -p "$build"
   if ! { cmake -S "$root" -B "$build" "-DCMAKE_TOOLCHAIN_FILE=$root/toolchains/$triple.cmake" -DCMAKE_BUILD_TYPE=Release \
-    -DBSM_WERROR=ON && cmake --build "$build" --parallel "$jobs" --target test_kernels test_golden test_targets; } \
+    -DBSM_WERROR=ON -DBSM_BUILD_BENCH=ON && cmake --build "$build" --parallel "$jobs" --target test_kernels test_golden test_targets; } \
     > "$build/build.log" 2>&1; then
     cat "$build/build.log"
     failed+=("$suite build (the output is above and in $build/build.log)")
