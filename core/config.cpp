@@ -157,8 +157,8 @@ extern "C" bsm_status bsm_config_preset(bsm_config* config, bsm_preset preset) {
   config->lr_tolerance = 1;
   config->speckle = local ? 10 : 0;  // no gain where masked costs are aggregated
   config->border = paper ? 0 : 1;
-  config->vote_radius = 24;
-  config->vote_step = paper ? 1 : local ? 4 : 6;
+  config->vote_radius = local && !gray ? 18 : 24;
+  config->vote_step = paper ? 1 : 6;
   config->vote_color = local ? (gray ? 2 : 3) : gray ? 4 : 9;  // more holes to fill: the vote keeps closer to its pixel
   config->vote_distance = paper ? 16 : local ? 7 : 10;
   config->vote_cap = paper ? 0 : 1;
