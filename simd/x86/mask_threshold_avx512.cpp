@@ -46,6 +46,34 @@ inline __m512i distance_by_order(__m512i a, __m512i b) {
   return _mm512_mask_sub_epi8(_mm512_sub_epi8(a, b), _mm512_cmplt_epu8_mask(a, b), b, a);
 }
 
+// Thresholds of a pass above a pixel's lower bound, as bytes within(d) for differences d = 0..63.
+struct Thresholds {
+  uint8_t within[64];
+};
+
+constexpr Thresholds make_thresholds(const int32_t (&limits)[8]) {
+  Thresholds table{};
+  for (int32_t d = 0; d < 64; ++d) {
+    for (int32_t j = 0; j < 8; ++j) {
+      if (d <= limits[j]) table.within[d] = static_cast<uint8_t>(table.within[d] | 1 << j);
+    }
+  }
+  return table;
+}
+
+// The first pass: thresholds kFirstLeast + these, so that below 71, where most are, no bracket is wider than the nine values
+// that one pass by ones tells apart.
+constexpr int32_t kFirstLeast = 8;
+alignas(64) constexpr Thresholds kFirst = make_thresholds({0, 9, 18, 27, 36, 45, 54, 62});
+alignas(64) constexpr Thresholds kNext = make_thresholds({0, 1, 2, 3, 4, 5, 6, 7});
+
+// Differences above 63 are within no threshold.
+inline __m512i find_within(__m512i sad, __m512i least, __m512i table) {
+  const __m512i above = _mm512_min_epu8(_mm512_subs_epu8(sad, least), _mm512_set1_epi8(63));
+  return _mm512_permutexvar_epi8(above, table);
+}
+
+// SADs of all points, and what is within the thresholds of the first pass.
 template <int32_t kPlanes>
 BSM_NOINLINE void window_sad(const MaskThresholdArgs& args, int32_t x, Scratch& scratch) {
   const uint8_t* own = args.rows[args.pattern.radius] + x;
@@ -53,6 +81,8 @@ BSM_NOINLINE void window_sad(const MaskThresholdArgs& args, int32_t x, Scratch& 
   __m512i center[kPlanes];
   BSM_UNROLL
   for (int32_t i = 0; i < kPlanes; ++i) center[i] = _mm512_loadu_si512(own + i * stride);
+  const __m512i least = _mm512_set1_epi8(kFirstLeast);
+  const __m512i table = _mm512_load_si512(kFirst.within);
   const int32_t count = scratch.points->count;
   for (int32_t i = 0; i < count; ++i) {
     const uint8_t* at = scratch.at[i] + x;
@@ -66,6 +96,7 @@ BSM_NOINLINE void window_sad(const MaskThresholdArgs& args, int32_t x, Scratch& 
       sad = _mm512_adds_epu8(sad, distance_by_order(center[plane], color[plane]));
     }
     _mm512_store_si512(scratch.sad[i], sad);
+    _mm512_store_si512(scratch.within[i], find_within(sad, least, table));
   }
 }
 
@@ -189,27 +220,6 @@ BSM_NOINLINE __m512i enough(Scratch& scratch, int32_t bits) {
   return result;
 }
 
-// Thresholds of a pass above a pixel's lower bound, as bytes within(d) for differences d = 0..63.
-struct Thresholds {
-  uint8_t within[64];
-};
-
-constexpr Thresholds make_thresholds(const int32_t (&limits)[8]) {
-  Thresholds table{};
-  for (int32_t d = 0; d < 64; ++d) {
-    for (int32_t j = 0; j < 8; ++j) {
-      if (d <= limits[j]) table.within[d] = static_cast<uint8_t>(table.within[d] | 1 << j);
-    }
-  }
-  return table;
-}
-
-// The first pass: thresholds kFirstLeast + these, so that below 71, where most are, no bracket is wider than the nine values
-// that one pass by ones tells apart.
-constexpr int32_t kFirstLeast = 8;
-alignas(64) constexpr Thresholds kFirst = make_thresholds({0, 9, 18, 27, 36, 45, 54, 62});
-alignas(64) constexpr Thresholds kNext = make_thresholds({0, 1, 2, 3, 4, 5, 6, 7});
-
 // How many thresholds of a byte are not enough.
 inline __m512i count_failed(__m512i result) {
   const __m512i zeros = _mm512_broadcast_i32x4(_mm_setr_epi8(4, 3, 3, 2, 3, 2, 2, 1, 3, 2, 2, 1, 2, 1, 1, 0));
@@ -224,13 +234,6 @@ struct Bracket {
 };
 
 inline Bracket first_bracket(Scratch& scratch, int32_t bits) {
-  const __m512i table = _mm512_load_si512(kFirst.within);
-  const __m512i least = _mm512_set1_epi8(kFirstLeast);
-  const __m512i last = _mm512_set1_epi8(63);
-  for (int32_t i = 0; i < scratch.points->count; ++i) {
-    const __m512i above = _mm512_min_epu8(_mm512_subs_epu8(_mm512_load_si512(scratch.sad[i]), least), last);
-    _mm512_store_si512(scratch.within[i], _mm512_permutexvar_epi8(above, table));
-  }
   const __m512i failed = count_failed(enough(scratch, bits));
   const __m512i low = _mm512_broadcast_i32x4(_mm_setr_epi8(0, 9, 18, 27, 36, 45, 54, 63, 71, 0, 0, 0, 0, 0, 0, 0));
   const __m512i high = _mm512_broadcast_i32x4(_mm_setr_epi8(8, 17, 26, 35, 44, 53, 62, 70, -1, 0, 0, 0, 0, 0, 0, 0));
@@ -240,17 +243,21 @@ inline Bracket first_bracket(Scratch& scratch, int32_t bits) {
 // A pass over the next eight thresholds of each pixel: one apart, eight apart for the pixels of `wide`.
 inline void narrow(Scratch& scratch, int32_t bits, __mmask64 wide, Bracket& bracket) {
   const __m512i table = _mm512_load_si512(kNext.within);
-  const __m512i last = _mm512_set1_epi8(63);
-  const __m512i eighth = _mm512_set1_epi8(31);
-  for (int32_t i = 0; i < scratch.points->count; ++i) {
-    __m512i above = _mm512_subs_epu8(_mm512_load_si512(scratch.sad[i]), bracket.low);
-    if (wide != 0) {
-      const __m512i by_eight = _mm512_and_si512(_mm512_srli_epi16(above, 3), eighth);
-      above = _mm512_mask_mov_epi8(_mm512_min_epu8(above, last), wide, by_eight);
-    } else {
-      above = _mm512_min_epu8(above, last);
+  const __m512i low = bracket.low;
+  const int32_t count = scratch.points->count;
+  if (wide == 0) {
+    for (int32_t i = 0; i < count; ++i) {
+      _mm512_store_si512(scratch.within[i], find_within(_mm512_load_si512(scratch.sad[i]), low, table));
     }
-    _mm512_store_si512(scratch.within[i], _mm512_permutexvar_epi8(above, table));
+  } else {
+    const __m512i last = _mm512_set1_epi8(63);
+    const __m512i eighth = _mm512_set1_epi8(31);
+    for (int32_t i = 0; i < count; ++i) {
+      const __m512i above = _mm512_subs_epu8(_mm512_load_si512(scratch.sad[i]), low);
+      const __m512i by_eight = _mm512_and_si512(_mm512_srli_epi16(above, 3), eighth);
+      const __m512i index = _mm512_mask_mov_epi8(_mm512_min_epu8(above, last), wide, by_eight);
+      _mm512_store_si512(scratch.within[i], _mm512_permutexvar_epi8(index, table));
+    }
   }
   const __m512i failed = count_failed(enough(scratch, bits));
   bracket.low = _mm512_adds_epu8(bracket.low, _mm512_mask_mov_epi8(failed, wide, _mm512_slli_epi16(failed, 3)));
