@@ -3,8 +3,8 @@
 // shift=0.
 //
 // Arguments (by semihosting), in the order they are to take effect: width=, height=, disparities=, format=gray8|rgb24,
-// preset=paper|fast|balanced, then any of the fields below; scalar=1 for scalar kernels, frame=1 for bsm_process instead of
-// rows, map=FILE.pgm to write the map, fault=1 to read a misaligned word, which has to fault on ARMv6-M.
+// preset=paper|fast|balanced|local, then any of the fields below; scalar=1 for scalar kernels, frame=1 for bsm_process
+// instead of rows, map=FILE.pgm to write the map, fault=1 to read a misaligned word, which has to fault on ARMv6-M.
 #include <stddef.h>
 #include <stdint.h>
 
@@ -43,7 +43,8 @@ struct Name {
 };
 constexpr Name kFormats[] = {{"gray8", BSM_FORMAT_GRAY8}, {"rgb24", BSM_FORMAT_RGB24}};
 constexpr Name kMethods[] = {{"local", BSM_METHOD_LOCAL}, {"sgm", BSM_METHOD_SGM}};
-constexpr Name kPresets[] = {{"paper", BSM_PRESET_PAPER}, {"fast", BSM_PRESET_FAST}, {"balanced", BSM_PRESET_BALANCED}};
+constexpr Name kPresets[] = {
+    {"paper", BSM_PRESET_PAPER}, {"fast", BSM_PRESET_FAST}, {"balanced", BSM_PRESET_BALANCED}, {"local", BSM_PRESET_LOCAL}};
 
 template <size_t kCount>
 int32_t value_of(const Name (&names)[kCount], const char* word) {

@@ -91,6 +91,7 @@ test_core() {
   expect "$core, $board: sgm, rows, $isa" gives_hash "fast rgb24 refined left" "$isa" "$core" "$board" probe preset=fast
   expect "$core, $board: sgm, frame, $isa" gives_hash "fast rgb24 refined left" "$isa" "$core" "$board" probe preset=fast frame=1
   expect "$core, $board: local, rows, $isa" gives_hash "256 rgb24 refined left" "$isa" "$core" "$board" probe preset=paper bits=256
+  expect "$core, $board: preset local, rows, $isa" gives_hash "local rgb24 refined left" "$isa" "$core" "$board" probe preset=local
   expect "$core, $board: local, frame, $isa" \
     gives_hash "256 rgb24 refined left" "$isa" "$core" "$board" probe preset=paper bits=256 frame=1
   if [ "$isa" != scalar ]; then
