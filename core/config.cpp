@@ -155,7 +155,8 @@ extern "C" bsm_status bsm_config_preset(bsm_config* config, bsm_preset preset) {
   config->right_costs = BSM_RIGHT_COSTS_OWN;
   config->subpixel = paper ? 0 : 1;
   config->lr_tolerance = 1;
-  config->speckle = local ? 10 : 0;  // no gain where masked costs are aggregated
+  // Drops what agrees by chance: with masked costs alone, and with sums where the views differ in exposure.
+  config->speckle = local ? 10 : preset == BSM_PRESET_BALANCED && !gray ? 15 : 0;
   config->border = paper ? 0 : 1;
   config->vote_radius = local && !gray ? 18 : 24;
   config->vote_step = paper ? 1 : 6;

@@ -189,18 +189,15 @@ void run(Study& study) {
       "light, Gaussian noise of standard deviation 2 levels, clipping, 8 bits. Lighting: gains in linear light that are "
       "even, fall from 1.5 at the left edge to 0.5 at the right, or have a bright spot of 2 off centre over 0.6; clipping, "
       "8 bits. Each view has its own condition. \"speckle 20\" keeps a pixel that 20 % of its surroundings agree with; the "
-      "preset local asks 10 %, sgm none. Nothing else differs from the presets.";
+      "preset balanced asks 15 %, local 10 %. Nothing else differs from the presets.";
   words += opencv_available() ? " " + opencv_name() + " StereoSGBM: 3-way, 3 x 3 blocks, holes filled."
                               : " StereoSGBM is absent: OpenCV was not found when this was built.";
   study.report().section("figure3", "Figure 3: radiometric differences", words);
   study.report().note(
       "What limits: a view that clips, or whose signal sinks into the noise, has lost what could be compared, and no "
-      "partner "
-      "brings it back. \"Worse view's own error\" gives each mixed cell the error of its worse condition with itself: a "
-      "matcher "
-      "at 1.00 of it pays for the lost signal alone, not for the difference. \"Unclipped pixels\" counts those below level "
-      "255 "
-      "in both views.");
+      "partner brings it back. \"Worse view's own error\" gives each mixed cell the error of its worse condition with "
+      "itself: a matcher at 1.00 of it pays for the lost signal alone, not for the difference. \"Unclipped pixels\" "
+      "counts those below level 255 in both views.");
   report_study(study, "exposures", "exposures", kExposureNames, measure(study, Change::kExposure));
   report_study(study, "exposures_without_noise", "exposures without noise", kExposureNames,
                measure(study, Change::kExposureWithoutNoise));
