@@ -198,23 +198,41 @@ gray_pair() {
   done
 }
 
-# emulate SUITE BUILD CPU ISA EMULATOR...: the tests of kernels and hashes on an emulated CPU, which has to choose the kernels of
-# that instruction set; an instruction that it lacks ends the test.
+# emulate SUITE BUILD CPU:ISA... -- EMULATOR...: the tests of kernels and hashes on emulated CPUs, each of which has to choose the
+# kernels of that instruction set; an instruction that it lacks ends the test. As many run at once as there are processors here.
 emulate() {
-  local suite=$1 build=$2 cpu=$3 isa=$4 name output all="" result=passed
-  shift 4
-  for name in test_kernels test_golden test_targets; do
-    if output=$(BSM_EXPECT_ISA=$isa BSM_TEST_EFFORT=25 "$@" -cpu "$cpu" "$build/tests/$name" 2>&1); then
-      echo "$suite $cpu: $name passed with $isa kernels"
-      passed=$((passed + 1))
-    else
-      printf '%s\n' "$output" | grep -v '^ok' | head -n 40
-      failed+=("$suite $cpu: $name")
-      result=failed
-    fi
-    all+=$output$'\n'
+  local suite=$1 build=$2 cpus=() tests=(test_golden test_kernels test_targets) entry cpu isa name log all result
+  shift 2
+  while [ "$1" != -- ]; do
+    cpus+=("$1")
+    shift
   done
-  add_target_row "$suite" "$cpu" "$result" "$all"
+  shift
+  rm -rf "$build/emulated"
+  mkdir -p "$build/emulated"
+  # shellcheck disable=SC2016  # expanded by the shell of each test
+  for name in "${tests[@]}"; do printf "$name %s\n" "${cpus[@]}"; done |
+    xargs -n 2 -P "$jobs" bash -c '
+      build=$0 emulator=("${@:1:$#-2}") name=${*: -2:1} entry=${*: -1}
+      log=$build/emulated/$entry.$name
+      BSM_EXPECT_ISA=${entry#*:} BSM_TEST_EFFORT=25 "${emulator[@]}" -cpu "${entry%%:*}" "$build/tests/$name" > "$log" 2>&1 &&
+        touch "$log.passed"' "$build" "$@"
+  for entry in "${cpus[@]}"; do
+    cpu=${entry%%:*} isa=${entry#*:} all="" result=passed
+    for name in "${tests[@]}"; do
+      log=$build/emulated/$entry.$name
+      if [ -e "$log.passed" ]; then
+        echo "$suite $cpu: $name passed with $isa kernels"
+        passed=$((passed + 1))
+      else
+        grep -v '^ok' "$log" | head -n 40
+        failed+=("$suite $cpu: $name")
+        result=failed
+      fi
+      all+=$(cat "$log")$'\n'
+    done
+    add_target_row "$suite" "$cpu" "$result" "$all"
+  done
 }
 
 # Each file holds suites: functions run_<suite> that count what passed, failed and was skipped.

@@ -3,7 +3,7 @@
 
 # cross SUITE TRIPLE EMULATOR CPU:ISA...
 cross() {
-  local suite=$1 triple=$2 emulator=$3 build=$root/build/$1 entry
+  local suite=$1 triple=$2 emulator=$3 build=$root/build/$1
   shift 3
   if ! require_tools "$triple-g++" "$emulator" > /dev/null 2>&1; then
     skip_target "$suite" - "$triple-g++ or $emulator is not installed and cannot be installed here (Debian and Ubuntu: apt-get install g++-$triple qemu-user)"
@@ -18,7 +18,7 @@ cross() {
     failed+=("$suite build (the output is above and in $build/build.log)")
     return
   fi
-  for entry in "$@"; do emulate "$suite" "$build" "${entry%%:*}" "${entry#*:}" "$emulator" -L "/usr/$triple"; done
+  emulate "$suite" "$build" "$@" -- "$emulator" -L "/usr/$triple"
   expect "no symbols beyond memory functions, integer helpers and getauxval" proof "$triple" proofs.sh symbols "$build/core/libbsm.a"
   expect "no writable data, no constructors" proof "$triple" proofs.sh sections "$build/core/libbsm.a"
 }
