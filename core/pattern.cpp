@@ -1,5 +1,7 @@
-// Makes the pairs: a fixed generator and an integer inverse Gaussian.
+// Makes the pairs: a fixed generator and an integer inverse Gaussian, evaluated by the compiler or when a context opens.
 #include "core/pattern.h"
+
+#include "bsm/bsm.h"
 
 #ifndef BSM_PATTERN_SEED
 #define BSM_PATTERN_SEED 1
@@ -24,7 +26,7 @@ struct Generator {
   const uint16_t* distribution;  // [k] = P(|X| < k + 1) in 2^-16, k below radius
   int32_t radius;
 
-  uint32_t next() {
+  constexpr uint32_t next() {
     uint32_t word = counter++;
     word = (word ^ (word >> 16)) * 0x7feb352du;
     word = (word ^ (word >> 15)) * 0x846ca68bu;
@@ -32,7 +34,7 @@ struct Generator {
   }
 
   // One coordinate: the magnitude by inverting the distribution, then a sign.
-  int8_t offset() {
+  constexpr int8_t offset() {
     const uint32_t random = next();
     const uint32_t uniform = random >> 16;
     int32_t magnitude = 0;
@@ -41,7 +43,7 @@ struct Generator {
   }
 };
 
-Pattern make_pattern(const uint16_t* distribution, int32_t radius, int32_t bits, PixelPair* pairs) {
+constexpr void make_pairs(const uint16_t* distribution, int32_t radius, int32_t bits, PixelPair* pairs) {
   Generator generator{uint32_t{BSM_PATTERN_SEED} << 16, distribution, radius};
   for (PixelPair* pair = pairs; pair != pairs + bits; ++pair) {
     do {
@@ -51,21 +53,43 @@ Pattern make_pattern(const uint16_t* distribution, int32_t radius, int32_t bits,
       pair->qy = generator.offset();
     } while (pair->px == pair->qx && pair->py == pair->qy);
   }
-  return Pattern{pairs, bits, radius, nullptr};
+}
+
+template <int32_t kPairs>
+struct PairTable {
+  PixelPair pairs[kPairs];
+};
+
+template <int32_t kPairs>
+constexpr PairTable<kPairs> make_table(const uint16_t* distribution, int32_t radius) {
+  PairTable<kPairs> table{};
+  make_pairs(distribution, radius, kPairs, table.pairs);
+  return table;
+}
+
+template <const uint16_t* kDistribution, int32_t kRadius, int32_t kMostBits>
+Pattern pattern(int32_t bits, PixelPair* pairs) {
+  if constexpr (kHasPatternTables) {
+    static constexpr PairTable<kMostBits> kTable = make_table<kMostBits>(kDistribution, kRadius);
+    return Pattern{kTable.pairs, bits, kRadius, nullptr};
+  } else {
+    make_pairs(kDistribution, kRadius, bits, pairs);
+    return Pattern{pairs, bits, kRadius, nullptr};
+  }
 }
 
 }  // namespace
 
 Pattern local_pattern(int32_t bits, PixelPair* pairs) {
-  return make_pattern(kSigma4, kLocalRadius, bits, pairs);
+  return pattern<kSigma4, kLocalRadius, BSM_MAX_BITS>(bits, pairs);
 }
 
 Pattern narrow_pattern(int32_t bits, PixelPair* pairs) {
-  return make_pattern(kSigma3, kNarrowRadius, bits, pairs);
+  return pattern<kSigma3, kNarrowRadius, BSM_MAX_BITS>(bits, pairs);
 }
 
 Pattern sgm_pattern(int32_t bits, PixelPair* pairs) {
-  return make_pattern(kSigma2_5, kSgmRadius, bits, pairs);
+  return pattern<kSigma2_5, kSgmRadius, BSM_MAX_SGM_BITS>(bits, pairs);
 }
 
 }  // namespace bsm

@@ -187,7 +187,7 @@ void make_plan(const bsm_config& config, const Kernels& kernels, uint64_t contex
 
   Carver carver;
   carver.take(context_bytes);
-  plan.pairs = carver.take(static_cast<uint32_t>(config.bits) * sizeof(PixelPair));
+  if (!kHasPatternTables) plan.pairs = carver.take(static_cast<uint32_t>(config.bits) * sizeof(PixelPair));
   if constexpr (kOrdersPatterns) plan.order = carver.take(kernels.ordered ? pattern_order_bytes(config.bits) : 0);
   const int32_t views = config.right_map != 0 ? kViews : kLeft + 1;  // whose maps are kept
   for (int32_t view = 0; view < kViews; ++view) {

@@ -96,7 +96,7 @@ struct Plan {
   Ring fraction_weight[kViews];
   Ring fraction_once[kViews];  // after the first pass
   Ring margin;                 // sgm with confidence: one byte a pixel
-  size_t pairs;                // of the pattern
+  size_t pairs;                // of the pattern, without pattern tables
   size_t order;                // PatternOrder, when the kernels read it
   size_t vote_steps;
   size_t smooth_steps;

@@ -26,6 +26,14 @@
 #ifndef BSM_BUILD_SCALAR
 #define BSM_BUILD_SCALAR 1
 #endif
+// Operating systems have 36 KB to spare.
+#ifndef BSM_BUILD_PATTERN_TABLES
+#if defined(__linux__) || defined(__APPLE__) || defined(_WIN32)
+#define BSM_BUILD_PATTERN_TABLES 1
+#else
+#define BSM_BUILD_PATTERN_TABLES 0
+#endif
+#endif
 
 namespace bsm {
 
@@ -34,8 +42,9 @@ constexpr bool kHasSgm = BSM_BUILD_SGM != 0;
 constexpr bool kHasColor = BSM_BUILD_COLOR != 0;  // else gray8 alone
 constexpr bool kHasRefinement = BSM_BUILD_REFINEMENT != 0;
 constexpr bool kHasConfidence = BSM_BUILD_CONFIDENCE != 0;
-constexpr bool kHasText = BSM_BUILD_TEXT != 0;      // sentences about statuses, names of kernels
-constexpr bool kHasScalar = BSM_BUILD_SCALAR != 0;  // else only for stages without another kernel
+constexpr bool kHasText = BSM_BUILD_TEXT != 0;                     // sentences about statuses, names of kernels
+constexpr bool kHasScalar = BSM_BUILD_SCALAR != 0;                 // else only for stages without another kernel
+constexpr bool kHasPatternTables = BSM_BUILD_PATTERN_TABLES != 0;  // else a context makes its pairs: 4 bytes a bit
 static_assert(kHasLocal || kHasSgm, "a library has a method");
 static_assert(kHasScalar || BSM_ARCH_CORTEX_M, "other processors tell their instruction sets when the library runs");
 

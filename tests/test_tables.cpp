@@ -45,7 +45,10 @@ constexpr PatternKind kPatterns[] = {{"local", bsm::local_pattern, BSM_MAX_BITS,
 
 bsm::Pattern make_pattern(const PatternKind& kind, int bits, std::vector<bsm::PixelPair>* pairs) {
   pairs->resize(static_cast<size_t>(bits));
-  return kind.make(bits, pairs->data());
+  bsm::Pattern pattern = kind.make(bits, pairs->data());
+  if (pattern.pairs != pairs->data()) std::copy_n(pattern.pairs, bits, pairs->begin());
+  pattern.pairs = pairs->data();
+  return pattern;
 }
 
 double linear_light(int value) {
