@@ -118,7 +118,7 @@ BSM_INLINE __m512i add(Counter& counter, __m512i a, __m512i b) {
 }
 
 BSM_INLINE __m512i load_within(const Scratch& scratch, uint16_t point) {
-  return _mm512_load_si512(scratch.within[0] + 8 * ptrdiff_t{point});
+  return _mm512_load_si512(reinterpret_cast<const uint8_t*>(&scratch.within) + 8 * ptrdiff_t{point});
 }
 
 // How many of a triple's pairs are within: a bit of weight 1 and one of weight 2.
