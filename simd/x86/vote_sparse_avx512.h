@@ -55,10 +55,14 @@ struct SparseWindow {
 void take_levels(const uint16_t* levels, int32_t width, uint8_t* out) {
   const __m512i none = _mm512_set1_epi8(static_cast<char>(kNoVote));
   const __m512i missing = _mm512_set1_epi16(static_cast<int16_t>(kOccluded));
+  if (levels == nullptr) {
+    BSM_MEMSET(out, kNoVote, static_cast<size_t>(sparse_row_bytes(width)));
+    return;
+  }
   _mm512_store_si512(out, none);
   out += kColumns;
   for (int32_t x = 0; x < width; x += kColumns, out += kColumns) {
-    const uint64_t inside = levels == nullptr ? 0 : range(0, width - x, kColumns);
+    const uint64_t inside = range(0, width - x, kColumns);
     const __m512i low = _mm512_mask_loadu_epi16(missing, static_cast<__mmask32>(inside), levels + x);
     const __m512i high = _mm512_mask_loadu_epi16(missing, static_cast<__mmask32>(inside >> kLanes), levels + x + kLanes);
     const auto whole = [](__m512i level) {
