@@ -122,6 +122,7 @@ extern "C" bsm_status bsm_row_delay(const bsm_config* config, int32_t* rows) {
   const bsm_status status = validate_config(config);
   if (status != BSM_OK) return status;
   if (rows == nullptr) return BSM_ERROR_NULL;
+  if (needs_whole_frame(*config)) return BSM_ERROR_ROW_MODE;
   *rows = row_delay(*config);
   return BSM_OK;
 }

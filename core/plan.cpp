@@ -64,7 +64,7 @@ void plan_stages(const bsm_config& config, Plan* plan) {
   plan->median_radius = refined ? config.median : 0;
   plan->fraction_radius = refined && is_sgm(config) && config.subpixel != 0 ? kFractionRadius : 0;
   plan->across_paths = !is_sgm(config) ? 0 : config.paths == 8 ? kMaxAcrossPaths : config.paths - 2;
-  plan->whole_frame = is_sgm(config) && config.paths == 8;
+  plan->whole_frame = needs_whole_frame(config);
   const bool masked = config.stage != BSM_STAGE_COST;
   plan->planes = !masked ? 0 : config.format == BSM_FORMAT_GRAY8 ? 1 : 3;
 }
@@ -136,6 +136,10 @@ JobPlan plan_job(const bsm_config& config, const Kernels& kernels, const Plan& p
 }
 
 }  // namespace
+
+bool needs_whole_frame(const bsm_config& config) {
+  return is_sgm(config) && config.paths == 8;
+}
 
 int32_t row_delay(const bsm_config& config) {
   Plan plan{};

@@ -113,7 +113,10 @@ inline bool has_sgm_pattern(const bsm_config& config) {
 // config is valid; context_bytes is reserved at offset 0.
 void make_plan(const bsm_config& config, const Kernels& kernels, uint64_t context_bytes, Plan* plan);
 
-// Rows from input to output.
+// True when every row of the input is kept until the last has come: paths from below.
+bool needs_whole_frame(const bsm_config& config);
+
+// Rows from input to output, of a configuration that does not need the whole frame.
 int32_t row_delay(const bsm_config& config);
 
 }  // namespace bsm

@@ -201,7 +201,8 @@ class Player {
     check(bsm_open(&stage_.config[config], arena_, arena_size_[config], &opened), BSM_OK);
     context_ = opened;
     opened_ = config;
-    REQUIRE_EQ(bsm_row_delay(&stage_.config[config], &delay_), BSM_OK);
+    delay_ = 0;
+    REQUIRE_EQ(bsm_row_delay(&stage_.config[config], &delay_), whole_frame() ? BSM_ERROR_ROW_MODE : BSM_OK);
     forget_rows();
   }
 

@@ -49,8 +49,8 @@ bsm_status print_size(const bsm_config& config) {
   int32_t delay = 0;
   bsm_status status = bsm_memory_required(&config, &here);
   if (status >= 0) status = bsm_memory_required_for(&config, 0, &scalar);
-  if (status >= 0) status = bsm_row_delay(&config, &delay);
   if (status < 0) return status;
+  const bool rows = bsm_row_delay(&config, &delay) >= 0;
   std::printf("%d x %d, %d disparities from %d, %d bits, %s, %s map, %s, %d job%s, %s:\n", static_cast<int>(config.width),
               static_cast<int>(config.height), static_cast<int>(config.num_disparities),
               static_cast<int>(config.min_disparity), static_cast<int>(config.bits), method_name(config.method),
@@ -58,7 +58,8 @@ bsm_status print_size(const bsm_config& config) {
               config.max_jobs == 1 ? "" : "s", config.right_map != 0 ? "with right map" : "no right map");
   std::printf("  arena, this machine's kernels  %zu bytes (%.1f KB)\n", here, kilobytes(here));
   std::printf("  arena, scalar kernels          %zu bytes (%.1f KB)\n", scalar, kilobytes(scalar));
-  std::printf("  row delay                      %d rows\n", static_cast<int>(delay));
+  std::printf("  row delay                      %s\n",
+              rows ? text("%d rows", static_cast<int>(delay)).c_str() : "no row mode: 8 paths need the whole frame");
   return BSM_OK;
 }
 

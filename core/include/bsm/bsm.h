@@ -289,7 +289,7 @@ BSM_API bsm_status bsm_memory_required(const bsm_config* config, size_t* bytes);
 BSM_API bsm_status bsm_memory_required_for(const bsm_config* config, uint32_t features, size_t* bytes);
 
 /* *rows = how many rows the row API is behind: row y can be pulled once row y + *rows has been pushed, or after bsm_finish.
- */
+ * Errors: those of bsm_memory_required but for BSM_ERROR_MEMORY_SIZE, and BSM_ERROR_ROW_MODE. */
 BSM_API bsm_status bsm_row_delay(const bsm_config* config, int32_t* rows);
 
 /* Opens a context inside arena, which the caller owns, keeps alive and leaves alone while the context is in use. arena may

@@ -17,7 +17,7 @@ struct Config : bsm_config {
     size_t bytes = 0;
     return bsm_memory_required(this, &bytes) == BSM_OK ? bytes : 0;
   }
-  // Rows by which the row API lags; negative when the configuration is invalid.
+  // Rows by which the row API lags; a negative bsm_status when the configuration is invalid or has no row mode.
   int32_t row_delay() const {
     int32_t rows = 0;
     const bsm_status status = bsm_row_delay(this, &rows);
