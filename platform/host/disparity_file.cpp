@@ -31,7 +31,7 @@ bool read_any(const std::string& path, AnyMap* map, std::string* error) {
   if (second >= 0) source.put_back(static_cast<uint8_t>(second));
   if (first >= 0) source.put_back(static_cast<uint8_t>(first));
   if (map->is_pfm) return read_pfm(source, name, &map->floats, error);
-  if (!read_pnm(source, name, &map->samples, error)) return false;
+  if (!read_pnm(source, name, &map->samples, error, "pgm")) return false;
   if (map->samples.channels != 1) {
     *error = name + ": a colour image, where a disparity map (.pfm or .pgm) belongs";
     return false;

@@ -36,7 +36,7 @@ struct EvaluateArguments {
 
 bool read_mask(const std::string& path, Region* region, int32_t* width, int32_t* height, std::string* error) {
   SampleImage image;
-  if (!read_pnm_file(path, &image, error)) return false;
+  if (!read_pnm_file(path, &image, error, "pgm")) return false;
   if (image.channels != 1 || image.max_value != 255) {
     *error = path + ": a mask is an 8-bit PGM, where 255 means that the pixel counts";
     return false;

@@ -28,7 +28,7 @@ FileOutput::~FileOutput() {
 }
 
 bool FileOutput::open(const std::string& path, std::string* error) {
-  path_ = path;
+  path_ = path == "-" ? "standard output" : path;
   if (path == "-") {
 #if defined(_WIN32)
     _setmode(_fileno(stdout), _O_BINARY);

@@ -102,6 +102,18 @@ bool read_view(const std::string& path, const char* side, Image8* image, std::st
   return true;
 }
 
+// Both views; what is wrong with either is said, unless the right one's place on a pipe depends on the left one.
+bool read_views(const std::string& left_path, const std::string& right_path, Image8* left, Image8* right,
+                std::string* error) {
+  const bool left_read = read_view(left_path, "left", left, error);
+  if (!left_read && right_path == "-") return false;
+  std::string right_error;
+  const bool right_read = read_view(right_path, "right", right, &right_error);
+  if (!left_read && !right_read) print_error("match: " + *error);
+  if (!right_read) *error = right_error;
+  return left_read && right_read;
+}
+
 // All files are complete beside their targets before any takes its name.
 bool write_maps(const MatchArguments& arguments, const MatchResult& result, std::string* error) {
   const bsm_config& config = result.config;
@@ -240,7 +252,9 @@ int match_command(const std::vector<std::string>& argument_list) {
   config.right_map = arguments.right_output.empty() ? 0 : 1;
   config.confidence = arguments.confidence_output.empty() ? 0 : 1;
   size_t bytes = 0;
+  int32_t delay = 0;
   bsm_status status = bsm_memory_required(&config, &bytes);
+  if (status >= 0 && arguments.stream) status = bsm_row_delay(&config, &delay);
   if (status < 0 && status != BSM_ERROR_FORMAT) {
     usage_error(config_error(status));
     return kExitUsage;
@@ -251,7 +265,7 @@ int match_command(const std::vector<std::string>& argument_list) {
   if (!can_write_to(arguments.map.path, &error) ||
       (config.right_map != 0 && !can_write_to(arguments.right_map.path, &error)) ||
       (config.confidence != 0 && !can_write_to(arguments.confidence_map.path, &error)) ||
-      !read_view(arguments.left, "left", &left, &error) || !read_view(arguments.right, "right", &right, &error) ||
+      !read_views(arguments.left, arguments.right, &left, &right, &error) ||
       !prepare_pair(&left, arguments.left, &right, arguments.right, &error)) {
     print_error("match: " + error);
     return kExitData;

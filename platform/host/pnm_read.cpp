@@ -147,17 +147,17 @@ const char* format_of_extension(const std::string& name) {
 
 }  // namespace
 
-std::string not_pnm_message(const std::string& name, int first, int second) {
+std::string not_pnm_message(const std::string& name, int first, int second, const char* wanted) {
   const char* by_content = format_of_bytes(first, second);
   const char* format = by_content != nullptr ? by_content : format_of_extension(name);
   if (format != nullptr) {
     const bool piped = name == kStandardInput;
     const std::string from = piped ? "image." + lower_extension(std::string("x.") + format) : name;
-    const std::string to = with_extension(from, "ppm");
+    const std::string to = with_extension(from, wanted);
     const std::string words = shell_word(from) + " " + shell_word(to);
     return name + ": a " + format + " file" + (by_content != nullptr ? "" : " by its name") +
-           ", which bsm does not read. Convert it with\n  convert " + words + "\nof ImageMagick, or with\n  ffmpeg -i " +
-           words + "\nand give " + (piped ? "the result" : to);
+           ", which bsm does not read. Convert it with ImageMagick, or else with ffmpeg, and give " +
+           (piped ? "the result" : to) + ":\n  convert " + words + "\n  ffmpeg -i " + words;
   }
   if (first == 'P' && (second == 'f' || second == 'F'))
     return name + ": this is a PFM file, where a PGM or PPM image belongs";
@@ -167,7 +167,7 @@ std::string not_pnm_message(const std::string& name, int first, int second) {
   return name + ": neither a PGM nor a PPM image (P2, P3, P5, P6)";
 }
 
-bool read_pnm(ByteSource& source, const std::string& name, SampleImage* image, std::string* error) {
+bool read_pnm(ByteSource& source, const std::string& name, SampleImage* image, std::string* error, const char* wanted) {
   *image = SampleImage();
   int first = source.get();
   while (is_space(first)) first = source.get();  // line ends after an ASCII image that came before on this stream
@@ -178,7 +178,7 @@ bool read_pnm(ByteSource& source, const std::string& name, SampleImage* image, s
   }
   const int kind = source.get();
   if (first != 'P' || (kind != '2' && kind != '3' && kind != '5' && kind != '6')) {
-    *error = not_pnm_message(name, first, kind);
+    *error = not_pnm_message(name, first, kind, wanted);
     return false;
   }
   image->channels = kind == '3' || kind == '6' ? 3 : 1;
@@ -197,11 +197,11 @@ bool read_pnm(ByteSource& source, const std::string& name, SampleImage* image, s
   return kind <= '3' ? read_ascii_raster(numbers, image, error) : read_binary_raster(source, name, image, error);
 }
 
-bool read_pnm_file(const std::string& path, SampleImage* image, std::string* error) {
+bool read_pnm_file(const std::string& path, SampleImage* image, std::string* error, const char* wanted) {
   InputFile file;
   if (!file.open(path, error)) return false;
   ByteSource source(file.stream());
-  return read_pnm(source, path == "-" ? kStandardInput : path, image, error);
+  return read_pnm(source, path == "-" ? kStandardInput : path, image, error, wanted);
 }
 
 }  // namespace bsm::host
