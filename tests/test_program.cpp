@@ -188,6 +188,21 @@ TEST_CASE(every_option_reaches_the_library) {
   CHECK(work.read("map.pgm") == pgm16(match_frame(config, work.pair()).left, config));
 }
 
+TEST_CASE(isa_takes_what_kernels_are_named_after) {
+  const Workplace work;
+  const auto kernels_of = [&work](const std::string& isa) {
+    const Run run = work.match("-o map.pgm --json --isa " + isa);
+    check_run(run, kOk);
+    return JsonCheck(run.out).member("kernels");
+  };
+  CHECK_EQ(kernels_of(best_isa(BSM_ISA_ALL)), kernels_of("auto"));
+  for (const uint32_t mask : isa_masks()) {
+    const std::string isa = best_isa(mask);
+    const Scope scope(isa);
+    CHECK(kernels_of(isa).find("descriptor_compare_" + isa) != std::string::npos);
+  }
+}
+
 TEST_CASE(stream_and_threads_give_the_same_bytes) {
   const Workplace work;
   for (const char* extension : {"pfm", "pgm", "png"}) {
@@ -349,6 +364,7 @@ TEST_CASE(mistakes_in_the_command_line) {
       {"match left.ppm right.ppm -o a.pgm --right-out ./a.pgm", "same file"},
       {"match left.ppm right.ppm -o - --json", "standard output"},
       {"match left.ppm right.ppm -o a.pgm --stream=yes", "--stream"},
+      {"match left.ppm right.ppm -o a.pgm --stream --preset best", "--stream"},
       {"evaluate", "DISPARITY"},
       {"evaluate a.pfm b.pfm --threshold -1", "--threshold"},
       {"evaluate a.pfm b.pfm --what", "--what"},
@@ -392,12 +408,15 @@ TEST_CASE(files_that_stand_in_the_way) {
       {"match left.ppm small.ppm -o a.pgm", "small.ppm", "same size"},
       {"match picture.png right.ppm -o a.pgm", "picture.png", "convert picture.png picture.ppm"},
       {"match left.ppm photo.jpg -o a.pgm", "photo.jpg", "convert photo.jpg photo.ppm"},
+      {"match picture.png photo.jpg -o a.pgm", "picture.png", "convert photo.jpg photo.ppm"},
+      {"match photo.jpg missing.ppm -o a.pgm", "missing.ppm", "convert photo.jpg photo.ppm"},
       {"match left.ppm text.ppm -o a.pgm", "text.ppm", "neither a PGM nor a PPM"},
       {"match left.ppm folder -o a.pgm", "folder", ""},
       {"match left.ppm right.ppm -o nowhere/a.pgm", "nowhere", "folder"},
       {"match left.ppm right.ppm -o folder/../missing/a.pgm", "missing", ""},
       {"evaluate missing.pfm left.ppm --scale 4", "missing.pfm", ""},
       {"evaluate left.ppm left.ppm --scale 4", "left.ppm", "colour"},
+      {"evaluate picture.png left.ppm --scale 4", "picture.png", "convert picture.png picture.pgm"},
       {"demo left.ppm", "left.ppm", "folder"},
   };
   for (const Problem& problem : problems) {
@@ -432,7 +451,9 @@ TEST_CASE(a_failure_keeps_the_old_output) {
   CHECK(work.read("map.pgm") != "old");
   CHECK_EQ(work.files(), 4u);
   if (!std::filesystem::exists("/dev/full")) return;
-  check_run(work.match("-o - > /dev/full"), kData);
+  const Run full = work.match("-o - > /dev/full");
+  check_run(full, kData);
+  CHECK(full.err.find("standard output") != std::string::npos);
   check_run(work.match("-o map.pgm --json > /dev/full"), kData);
   check_run(work.bsm("info > /dev/full"), kData);
 }

@@ -181,7 +181,12 @@ bool isa_mask_of(const std::string& name, uint32_t* mask, std::string* error) {
   for (int32_t bit = 0; bit < kFeatureBits; ++bit) {
     const char* feature = bsm_cpu_feature_name(bit);
     if (feature == nullptr || name != feature || (bsm_cpu_features() >> bit & 1u) == 0) continue;
-    *mask = static_cast<uint32_t>((uint64_t{2} << bit) - 1);  // lower bits are what a feature builds upon
+    int32_t last = bit;
+    for (int32_t more = bit + 1; more < kFeatureBits; ++more) {
+      const char* longer = bsm_cpu_feature_name(more);
+      if (longer != nullptr && std::string(longer).compare(0, name.size(), name) == 0) last = more;
+    }
+    *mask = static_cast<uint32_t>((uint64_t{2} << last) - 1);
     return true;
   }
   const uint32_t features = bsm_cpu_features();

@@ -33,7 +33,8 @@ class ConfigOptions {
   bool no_median_ = false;
 };
 
-// The isa_mask that a name means: "auto" all, "scalar" none, a CPU feature that feature and those it builds upon.
+// The isa_mask that a name means: "auto" all, "scalar" none, a CPU feature that feature, those it builds upon and those
+// whose names begin with its own, so that "avx512" is what the kernels of that name need.
 bool isa_mask_of(const std::string& name, uint32_t* mask, std::string* error);
 
 // Names of the bits, separated by spaces; "none" when no bit is set.
