@@ -36,4 +36,4 @@ quietly cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DBSM_BUILD_PROG
 quietly cmake --build "$build" --config Release --target bsm_program --parallel "$(getconf _NPROCESSORS_ONLN 2> /dev/null || echo 2)"
 
 "$build/platform/host/bsm" demo "$pictures" "$@"
-echo "the program: $build/platform/host/bsm"
+echo "your own pair: $build/platform/host/bsm match left.ppm right.ppm -o depth.png --color --disparities 64"
