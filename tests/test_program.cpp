@@ -1,4 +1,5 @@
 // test_program.cpp - the program bsm as its users run it: files, pipes, exit codes, messages, and what is left behind.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include "check.h"
 #include "host/disparity_file.h"
 #include "host/pfm_read.h"
+#include "host/text.h"
 #include "images.h"
 #include "json_check.h"
 #include "matching.h"
@@ -279,7 +281,14 @@ TEST_CASE(pictures) {
   const Workplace work;
   check_run(work.match("-o gray.png"), kOk);
   check_run(work.match("-o color.png --color --right-out right.png"), kOk);
-  check_run(work.match("-o scaled.pgm --scale 4 --stage checked"), kOk);
+  const Run checked = work.match("-o scaled.pgm --scale 4 --stage checked");
+  check_run(checked, kOk);
+  const std::string scaled = work.read("scaled.pgm").substr(13);
+  REQUIRE_EQ(scaled.size(), size_t{kWidth} * kHeight);
+  const double valid = 100.0 * static_cast<double>(scaled.size() - std::count(scaled.begin(), scaled.end(), '\0')) /
+                       static_cast<double>(scaled.size());
+  CHECK(valid > 0 && valid < 100);
+  CHECK(checked.out.find("agree on " + bsm::host::text("%.1f %%", valid)) != std::string::npos);
   const bsm::host::Image8 gray = decode_png(work.read("gray.png")), color = decode_png(work.read("color.png"));
   CHECK(gray.width == kWidth && gray.height == kHeight && gray.channels == 1);
   CHECK(color.width == kWidth && color.height == kHeight && color.channels == 3);

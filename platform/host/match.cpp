@@ -1,4 +1,5 @@
 // bsm match: two images in, a disparity map out.
+#include <algorithm>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -213,6 +214,10 @@ void print_summary(std::FILE* stream, const MatchArguments& arguments, const Mat
     std::fprintf(stream, " (median %.1f ms, %d times)", result.median(), static_cast<int>(arguments.repeat));
   std::fprintf(stream, ", %d thread%s, %.0f KB\n", static_cast<int>(config.max_jobs), config.max_jobs == 1 ? "" : "s",
                static_cast<double>(result.arena_bytes) / 1024.0);
+  if (config.stage != BSM_STAGE_CHECKED) return;
+  const auto invalid = std::count(result.disparity.begin(), result.disparity.end(), bsm_invalid_disparity(&config));
+  const double size = static_cast<double>(result.disparity.size());
+  std::fprintf(stream, "both views agree on %.1f %% of the pixels\n", 100.0 * (size - static_cast<double>(invalid)) / size);
 }
 
 }  // namespace
@@ -229,7 +234,7 @@ int match_command(const std::vector<std::string>& argument_list) {
   options.word("--right-out", "FILE", &arguments.right_output, "the right view's map goes there too");
   options.word("--confidence-out", "FILE", &arguments.confidence_output,
                "how far each value can be trusted, an 8-bit .png or .pgm");
-  options.number("--scale", "S", &arguments.style.scale, 0.0, true, "8-bit value = disparity x S");
+  options.number("--scale", "S", &arguments.style.scale, 0.0, true, "8-bit value = disparity x S, at most 255");
   options.flag("--color", &arguments.style.color, "a .png in colours");
   options.flag("--stream", &arguments.stream, "match row by row; the same map in the memory of a few rows");
   options.integer("--repeat", "R", &arguments.repeat, 1, 1000000, "match R times and report the times");
