@@ -12,7 +12,7 @@ namespace {
 
 Bytes pair_weight(const MaskScratch& scratch, uint32_t pair) {
   constexpr ptrdiff_t kScale = kLanes / 8;
-  const uint8_t* sad = scratch.sad[0];
+  const uint8_t* sad = reinterpret_cast<const uint8_t*>(&scratch.sad);
   return max8(load(sad + kScale * (pair & 0xffff)), load(sad + kScale * (pair >> 16)));
 }
 

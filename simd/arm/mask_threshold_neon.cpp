@@ -22,14 +22,14 @@ constexpr int32_t kGroups = kTile / kLanes;
 constexpr int32_t kEvenPoints = kMaxPoints + 1;  // two at once
 
 struct ShortScratch {
-  uint8_t sad[kEvenPoints][kLanes];
-  uint8_t weight[kLong][kLanes];
+  uint8_t sad[kEvenPoints * kLanes];  // by point, then by pixel
+  uint8_t weight[kLong * kLanes];     // by pair, then by pixel
 };
 
 struct LongScratch {
-  uint8_t sad[kEvenPoints][kTile];
-  uint8_t within[kMaxPoints][kLanes];  // a bit for each pixel: bit g of byte i for pixel i of group g
-  uint8_t octets[8][kGroups][kLanes];  // by byte of 64 pairs, then by group
+  uint8_t sad[kEvenPoints * kTile];     // by point, then by pixel
+  uint8_t within[kMaxPoints * kLanes];  // by point, a bit for each pixel: bit g of byte i for pixel i of group g
+  uint8_t octets[8][kGroups][kLanes];   // by byte of 64 pairs, then by group
 };
 
 struct Scratch {
@@ -37,7 +37,7 @@ struct Scratch {
   uint16_t histogram[kMaxSad + 1];
   PatternPoints points;
   const uint8_t* point[kEvenPoints];  // first plane of each point, at x = 0
-  uint16_t pairs[BSM_MAX_BITS][2];    // bytes from the first vector of the points to those of p and q
+  uint16_t pairs[2 * BSM_MAX_BITS];   // bytes from the first vector of the points to those of p and q
   HighLevels high;
   union {
     ShortScratch few;
@@ -55,7 +55,7 @@ void list_points(const MaskThresholdArgs& args, Scratch& scratch) {
   scratch.point[scratch.points.count] = scratch.point[0];
   static_assert(kLanes == 2 * 8, "the numbers of points are 8 apart");
   for (int32_t i = 0; i < args.pattern.bits; i += 4) {
-    vst1q_u16(scratch.pairs[i], vshlq_n_u16(vreinterpretq_u16_u32(vld1q_u32(scratch.points.pairs + i)), 1));
+    vst1q_u16(scratch.pairs + 2 * i, vshlq_n_u16(vreinterpretq_u16_u32(vld1q_u32(scratch.points.pairs + i)), 1));
   }
 }
 
@@ -120,12 +120,12 @@ struct OldWeights {
 template <int32_t kShift>
 BSM_NOINLINE uint8x16_t passed_above(Scratch& scratch, int32_t bits, uint8x16_t low) {
   const Table16 table = load_table16(kShift == 4 ? kEverySecond.within : kEvery.within);
-  return enough(OldWeights<kShift>{scratch.few.weight[0], low, table}, bits, scratch.high);
+  return enough(OldWeights<kShift>{scratch.few.weight, low, table}, bits, scratch.high);
 }
 
 // T of sixteen pixels; 255 stands for anything from 255 up. Only the pixels whose bytes in `wanted` are set count.
 inline uint8x16_t find_threshold(Scratch& scratch, int32_t bits, uint8x16_t wanted) {
-  const NewWeights weights{scratch.few.sad[0], scratch.pairs[0], scratch.few.weight[0], load_table16(kFirst.within)};
+  const NewWeights weights{scratch.few.sad, scratch.pairs, scratch.few.weight, load_table16(kFirst.within)};
   Bracket bracket = first_bracket(enough(weights, bits, scratch.high));
   for (;;) {
     const uint8_t width = most8(vandq_u8(vsubq_u8(bracket.high, bracket.low), wanted));
@@ -142,13 +142,14 @@ inline uint8x16_t find_threshold(Scratch& scratch, int32_t bits, uint8x16_t want
 
 BSM_NOINLINE void store_masks(const Scratch& scratch, int32_t bits, uint8x16_t threshold, int32_t pixels, uint8_t* out) {
   const ptrdiff_t bytes = bits / 8;
+  const uint8_t* weight = scratch.few.weight;
   for (ptrdiff_t byte = 0; byte < bytes; byte += 8) {
     uint8x16_t octets[8];
     BSM_UNROLL
-    for (int32_t i = 0; i < 8; ++i) {
+    for (int32_t i = 0; i < 8; ++i, weight += 8 * kLanes) {
       uint8x16_t within[8];
       BSM_UNROLL
-      for (int32_t k = 0; k < 8; ++k) within[k] = vcleq_u8(vld1q_u8(scratch.few.weight[8 * (byte + i) + k]), threshold);
+      for (int32_t k = 0; k < 8; ++k) within[k] = vcleq_u8(vld1q_u8(weight + k * kLanes), threshold);
       octets[i] = gather_bits(within);
     }
     store_octets(octets, pixels, out + byte, bytes);
@@ -183,8 +184,8 @@ void store_beyond(const MaskThresholdArgs& args, int32_t x, int32_t pixels, uint
 
 // A bit for each of 128 pixels, for all points: the SAD is within the pixel's threshold.
 void find_within(Scratch& scratch, const uint8x16_t (&threshold)[kGroups]) {
-  const uint8_t* sad = scratch.many.sad[0];
-  uint8_t* within = scratch.many.within[0];
+  const uint8_t* sad = scratch.many.sad;
+  uint8_t* within = scratch.many.within;
   const int32_t count = scratch.points.count;
   uint8x16_t most[kGroups];  // in registers: stores of bytes may change what lies in memory
   BSM_UNROLL
@@ -209,7 +210,7 @@ struct WithinPairs {
 };
 
 BSM_NOINLINE uint8x16_t enough_within(Scratch& scratch, int32_t bits) {
-  return enough(WithinPairs{scratch.many.within[0], scratch.pairs[0]}, bits, scratch.high);
+  return enough(WithinPairs{scratch.many.within, scratch.pairs}, bits, scratch.high);
 }
 
 // Where a search for thresholds begins: with a step of 1 << bits when all thresholds lie below it. The bits that the last
@@ -282,12 +283,12 @@ inline void transpose_bits(uint8x16_t (&v)[8]) {
 // The masks of up to 128 pixels from the bits of the points.
 BSM_NOINLINE void store_tile(Scratch& scratch, int32_t bits, int32_t pixels, uint8_t* out) {
   const ptrdiff_t bytes = bits / 8;
-  const uint8_t* within = scratch.many.within[0];
+  const uint8_t* within = scratch.many.within;
   for (int32_t first = 0; first < bits; first += 64) {
     for (int32_t byte = 0; byte < 8; ++byte) {
       uint8x16_t words[8];
       BSM_UNROLL
-      for (int32_t i = 0; i < 8; ++i) words[i] = pair_within(within, scratch.pairs[first + 8 * byte + i]);
+      for (int32_t i = 0; i < 8; ++i) words[i] = pair_within(within, scratch.pairs + 2 * (first + 8 * byte + i));
       transpose_bits(words);
       BSM_UNROLL
       for (int32_t g = 0; g < kGroups; ++g) vst1q_u8(scratch.many.octets[byte][g], words[g]);
@@ -305,7 +306,7 @@ void threshold_short(const MaskThresholdArgs& args, Scratch& scratch) {
   const int32_t bits = args.pattern.bits;
   for (int32_t x = 0; x < args.width; x += kLanes) {
     const int32_t pixels = args.width - x < kLanes ? args.width - x : kLanes;
-    window_sad<kLanes>(args, x, scratch, scratch.few.sad[0]);
+    window_sad<kLanes>(args, x, scratch, scratch.few.sad);
     const uint8x16_t threshold = find_threshold(scratch, bits, first_lanes(pixels));
     store_masks(scratch, bits, threshold, pixels, args.out + ptrdiff_t{x} * (bits / 8));
     store_beyond(args, x, pixels, threshold, scratch);
@@ -320,7 +321,7 @@ void threshold_long(const MaskThresholdArgs& args, Scratch& scratch) {
     const int32_t pixels = args.width - x < kTile ? args.width - x : kTile;
     const int32_t groups = (pixels + kLanes - 1) / kLanes;
     for (int32_t g = 0; g < groups; ++g) {
-      window_sad<kTile>(args, x + g * kLanes, scratch, scratch.many.sad[0] + g * kLanes);
+      window_sad<kTile>(args, x + g * kLanes, scratch, scratch.many.sad + g * kLanes);
     }
     uint8x16_t threshold[kGroups];
     find_thresholds(scratch, bits, groups, &top, threshold);

@@ -17,8 +17,8 @@ constexpr int32_t kHighLevels = 7;  // bits of a count from 64 on
 constexpr int32_t kScale = kTile / 8;
 
 struct Scratch {
-  uint8_t sad[kMaxPoints][kTile];
-  uint8_t within[kMaxPoints][kTile];  // bit j: the SAD is within threshold j
+  uint8_t sad[kMaxPoints * kTile];     // by point, then by pixel
+  uint8_t within[kMaxPoints * kTile];  // the same, bit j: the SAD is within threshold j
   uint8_t high[kHighLevels][kTile];
   uint8_t threshold[kTile];
   uint16_t exact_sad[kMaxPoints];
@@ -40,7 +40,7 @@ void window_sad(const MaskThresholdArgs& args, int32_t x, svbool_t pixels, Scrat
       sad = svqadd(sad, svabd_x(pixels, a, svld1(pixels, at + stride)));
       sad = svqadd(sad, svabd_x(pixels, b, svld1(pixels, at + 2 * stride)));
     }
-    svst1(pixels, scratch.sad[i], sad);
+    svst1(pixels, scratch.sad + i * kTile, sad);
   }
 }
 
@@ -54,7 +54,7 @@ BSM_INLINE svuint8_t add_bits(svuint8_t& level, svuint8_t a, svuint8_t b) {
 }
 
 BSM_INLINE svuint8_t pair_within(const Scratch& scratch, uint32_t pair, svbool_t pixels) {
-  const uint8_t* within = scratch.within[0];
+  const uint8_t* within = scratch.within;
   const svuint8_t p = svld1(pixels, within + kScale * ptrdiff_t{pair & 0xffff});
   const svuint8_t q = svld1(pixels, within + kScale * ptrdiff_t{pair >> 16});
   return svand_x(pixels, p, q);
@@ -121,8 +121,8 @@ BSM_NOINLINE svuint8_t enough(Scratch& scratch, int32_t bits, svbool_t pixels) {
 // thresholds that are too low.
 inline svuint8_t narrow(Scratch& scratch, int32_t bits, svbool_t pixels, svuint8_t low, uint8_t shift) {
   for (int32_t i = 0; i < scratch.points.count; ++i) {
-    const svuint8_t above = svlsr_x(pixels, svqsub(svld1(pixels, scratch.sad[i]), low), shift);
-    svst1(pixels, scratch.within[i], svlsl_x(pixels, svdup_u8(0xff), above));
+    const svuint8_t above = svlsr_x(pixels, svqsub(svld1(pixels, scratch.sad + i * kTile), low), shift);
+    svst1(pixels, scratch.within + i * kTile, svlsl_x(pixels, svdup_u8(0xff), above));
   }
   const svuint8_t passed = svcnt_x(pixels, enough(scratch, bits, pixels));
   return svadd_x(pixels, low, svlsl_x(pixels, svsub_x(pixels, svdup_u8(8), passed), shift));
@@ -130,7 +130,7 @@ inline svuint8_t narrow(Scratch& scratch, int32_t bits, svbool_t pixels, svuint8
 
 // Bits of eight pairs: both points' SADs are within the threshold.
 inline svuint8_t eight_within(const Scratch& scratch, const uint32_t* pairs, svbool_t pixels, svuint8_t threshold) {
-  const uint8_t* sad = scratch.sad[0];
+  const uint8_t* sad = scratch.sad;
   svuint8_t bits = svdup_u8(0);
   BSM_UNROLL
   for (int32_t i = 0; i < 8; ++i) {

@@ -29,7 +29,7 @@ struct Taps {
 };
 
 struct Scratch {
-  uint8_t weights[kEvenTaps][kLanes];
+  uint8_t weights[kEvenTaps * kLanes];                                       // by tap, then by pixel
   uint8_t tables[(kMaxMedianRadius + 1) * (kMaxMedianRadius + 1)][kColors];  // as distance_steps
   const uint8_t* table[kMostTaps];
   uint8_t distance[kMostTaps];
@@ -94,7 +94,7 @@ struct ByColor {
 };
 
 template <int32_t kPlanes, bool kEnd, class Weigh>
-inline void weigh_taps_by(const Group& group, const Weigh& weigh, uint8_t (&weights)[kEvenTaps][kLanes]) {
+inline void weigh_taps_by(const Group& group, const Weigh& weigh, uint8_t* weights) {
   uint8x16_t center[kPlanes];
   ptrdiff_t offset[kPlanes];
   BSM_UNROLL
@@ -114,15 +114,15 @@ inline void weigh_taps_by(const Group& group, const Weigh& weigh, uint8_t (&weig
     return kEnd ? vandq_u8(weight, vld1q_u8(taps.inside[i])) : weight;
   };
   int32_t i = 0;
-  for (; i + 1 < group.count; i += 2) {
+  for (; i + 1 < group.count; i += 2, weights += 2 * kLanes) {
     const uint8x16_t first = weight_of(i);
     const uint8x16_t second = weight_of(i + 1);
-    vst1q_u8(weights[i], first);
-    vst1q_u8(weights[i + 1], second);
+    vst1q_u8(weights, first);
+    vst1q_u8(weights + kLanes, second);
   }
   if (i < group.count) {
-    vst1q_u8(weights[i], weight_of(i));
-    vst1q_u8(weights[i + 1], vdupq_n_u8(0));
+    vst1q_u8(weights, weight_of(i));
+    vst1q_u8(weights + kLanes, vdupq_n_u8(0));
   }
 }
 
@@ -173,7 +173,7 @@ uint16x8_t find_medians(const Group& group, const Scratch& scratch, int32_t at, 
   const auto weight_at = [](const uint8_t* weight) { return vmovl_u8(vld1_u8(weight)); };
   const uint16x8_t zero = vdupq_n_u16(0);
   Sums sums{zero, zero, bonus};
-  const uint8_t* weight = scratch.weights[0] + at;
+  const uint8_t* weight = scratch.weights + at;
   for (const uint16_t* const* tap = levels; tap < end; tap += 2, weight += 2 * kLanes) {
     sums.add(own, level_at(tap[0]), weight_at(weight));
     sums.add(own, level_at(tap[1]), weight_at(weight + kLanes));
@@ -194,7 +194,7 @@ uint16x8_t find_medians(const Group& group, const Scratch& scratch, int32_t at, 
   do {
     current = vbslq_u16(searching, next, current);
     Lower lower{zero, zero};
-    weight = scratch.weights[0] + at;
+    weight = scratch.weights + at;
     for (const uint16_t* const* tap = levels; tap < end; tap += 2, weight += 2 * kLanes) {
       lower.add(current, veorq_u16(level_at(tap[0]), up), weight_at(weight));
       lower.add(current, veorq_u16(level_at(tap[1]), up), weight_at(weight + kLanes));

@@ -91,7 +91,7 @@ BSM_INLINE Bytes add_bits(Counter& counter, Bytes a, Bytes b) {
 }
 
 BSM_INLINE Bytes pair_within(const MaskScratch& scratch, uint32_t pair) {
-  const uint8_t* within = scratch.within[0];
+  const uint8_t* within = reinterpret_cast<const uint8_t*>(&scratch.within);
   constexpr uint32_t kScale = kLanes / 8;
   return both(load(within + kScale * (pair & 0xffff)), load(within + kScale * (pair >> 16)));
 }
