@@ -63,11 +63,29 @@ has_rows() {
   grep -qE "^mask_threshold_scalar,px,[0-9.]+," <<< "$output" && grep -qE "^mask_threshold_$isa,px,[0-9.]+," <<< "$output"
 }
 
+# traps SUITE TRIPLE EMULATOR...: kernels that end where an index leaves its array, a pointer is not aligned or a number does not
+# fit. Traps need none of clang's libraries for the machine. null, object-size and pointer-overflow take the compiler minutes.
+traps() {
+  local suite=$1 triple=$2 build=$root/build/$1_traps
+  shift 2
+  [ -d "$root/build/$suite/core" ] || return 0
+  have_clang || {
+    skipped+=("$suite traps: $no_clang")
+    return
+  }
+  expect "kernels that trap, build" build "$root" "$build" test_kernels -DCMAKE_SYSTEM_NAME=Linux \
+    "-DCMAKE_SYSTEM_PROCESSOR=${triple%%-*}" -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
+    "-DCMAKE_C_COMPILER_TARGET=$triple" "-DCMAKE_CXX_COMPILER_TARGET=$triple" -DCMAKE_BUILD_TYPE=Release -DBSM_BUILD_BENCH=OFF \
+    "-DCMAKE_CXX_FLAGS=-fsanitize=bounds,undefined -fno-sanitize=null,object-size,pointer-overflow -fsanitize-trap=all" &&
+    expect "kernels trap nowhere" env BSM_TEST_EFFORT=4 "$@" "$build/tests/test_kernels"
+}
+
 run_arm64() {
   cross arm64 aarch64-linux-gnu qemu-aarch64 cortex-a53:neon cortex-a76:neon a64fx:sve max,sve128=on:sve max,sve256=on:sve \
     max,sve-default-vector-length=256:sve
   measures arm64 neon qemu-aarch64 -cpu cortex-a53
   measures arm64 sve qemu-aarch64 -cpu a64fx
+  traps arm64 aarch64-linux-gnu qemu-aarch64 -L /usr/aarch64-linux-gnu -cpu max,sve256=on
   scan arm64 aarch64-linux-gnu
   if [ -f "$root/build/arm64/core/libbsm.a" ]; then
     suite=arm64 expect "a program without C library" \
@@ -78,6 +96,7 @@ run_arm64() {
 run_arm32() {
   cross arm32 arm-linux-gnueabihf qemu-arm cortex-a7:neon cortex-a9,neon=off:scalar
   measures arm32 neon qemu-arm -cpu cortex-a7
+  traps arm32 arm-linux-gnueabihf qemu-arm -L /usr/arm-linux-gnueabihf -cpu cortex-a7
   scan arm32 arm-linux-gnueabihf -march=armv7-a -mfpu=vfpv3-d16 -mthumb
   scan_refuses arm32 arm-linux-gnueabihf -march=armv7-a -mfpu=vfpv3-d16 -mthumb
 }
