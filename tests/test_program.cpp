@@ -148,6 +148,9 @@ TEST_CASE(help_and_version) {
   }
   const Run evaluate = work.bsm("evaluate --help");
   for (const char* option : {"--scale", "--mask", "--threshold"}) CHECK(evaluate.out.find(option) != std::string::npos);
+  const Run info = work.bsm("info --help");  // a size has no default, a range has
+  CHECK(info.out.find("image width in pixels\n") != std::string::npos);
+  CHECK(info.out.find("searched, in pixels [64]\n") != std::string::npos);
   CHECK_EQ(work.bsm("--version").out, std::string("bsm ") + bsm_version() + "\n");
   const Run bare = work.bsm("");
   CHECK_EQ(bare.exit_code, kUsage);

@@ -119,7 +119,7 @@ ConfigOptions::ConfigOptions() : config{} {
 void ConfigOptions::add_search(Options* options) {
   options_ = options;
   options->choice("--preset", &preset_, all_of(kPresets),
-                  "quality against time; local methods and more than 1024 bits mean paper");
+                  "quality against time; for --method local or more than 1024 bits it is paper");
   options->integer("--disparities", "N", &config.num_disparities, 1, BSM_MAX_DISPARITY - BSM_MIN_DISPARITY + 1,
                    "how many disparities are searched, in pixels");
   options->integer("--min-disparity", "M", &config.min_disparity, BSM_MIN_DISPARITY, BSM_MAX_DISPARITY,

@@ -96,7 +96,7 @@ void Options::integer(const char* name, const char* value_name, int32_t* target,
   Option& option = add(Kind::kInteger, name, value_name, target, help);
   option.min = min;
   option.max = max;
-  option.default_text = text("%d", static_cast<int>(*target));
+  if (*target >= min && *target <= max) option.default_text = text("%d", static_cast<int>(*target));
 }
 
 void Options::number(const char* name, const char* value_name, double* target, double min, bool above_min,

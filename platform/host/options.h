@@ -20,8 +20,8 @@ class Options {
   Options(const char* command, const char* usage, const char* summary)
       : command_(command), usage_(usage), summary_(summary) {}
 
-  // Each target keeps its value unless the option is given; the help shows that value as the default. Names begin with "--";
-  // `help` is one line. A `value_name` is what the help calls the value.
+  // Each target keeps its value unless the option is given; the help shows that value as the default, if the option could
+  // give it. Names begin with "--"; `help` is one line. A `value_name` is what the help calls the value.
   void flag(const char* name, bool* target, const char* help);
   void integer(const char* name, const char* value_name, int32_t* target, int32_t min, int32_t max, const char* help);
   // A finite number, at least `min`, or above it when above_min.
