@@ -6,23 +6,34 @@
 namespace bsm {
 namespace {
 
+constexpr uint16_t kUnused = 0xffff;  // SAD of an offset that is in no pair
+
 struct Scratch {
   uint16_t sad[kMaxWindowSide * kMaxWindowSide];  // SAD(x, x + offset), row by row of the window (eq. 5)
   uint16_t histogram[kMaxSad + 1];                // how many pairs have w_i = index
 };
+
+// center points at the middle of the window's SADs.
+void mark_used(const Pattern& pattern, int32_t side, uint16_t* center) {
+  const int32_t last = side * side / 2;
+  for (int32_t i = -last; i <= last; ++i) center[i] = kUnused;
+  for (const PixelPair* pair = pattern.pairs; pair != pattern.pairs + pattern.bits; ++pair) {
+    center[pair->py * side + pair->px] = center[pair->qy * side + pair->qx] = 0;
+  }
+}
 
 void window_sad(const MaskThresholdArgs& args, int32_t x, uint16_t* window) {
   const int32_t radius = args.pattern.radius;
   const uint8_t* center = args.rows[radius] + x;
   for (int32_t dy = 0; dy <= 2 * radius; ++dy) {
     const uint8_t* row = args.rows[dy] + x - radius;
-    for (int32_t dx = 0; dx <= 2 * radius; ++dx) {
-      *window++ = static_cast<uint16_t>(sad(center, row + dx, args.plane_stride, args.planes));
+    for (int32_t dx = 0; dx <= 2 * radius; ++dx, ++window) {
+      if (*window != kUnused) *window = static_cast<uint16_t>(sad(center, row + dx, args.plane_stride, args.planes));
     }
   }
 }
 
-// w_i (eq. 6); center points at the middle of the window's SADs.
+// w_i (eq. 6).
 uint32_t pair_weight(const uint16_t* center, int32_t side, const PixelPair& pair) {
   const uint32_t p = center[pair.py * side + pair.px];
   const uint32_t q = center[pair.qy * side + pair.qx];
@@ -47,7 +58,8 @@ void mask_threshold_scalar(const MaskThresholdArgs& args) {
   Scratch& scratch = *static_cast<Scratch*>(args.scratch);
   const Pattern pattern = args.pattern;
   const int32_t side = 2 * pattern.radius + 1;
-  const uint16_t* center = scratch.sad + pattern.radius * side + pattern.radius;
+  uint16_t* const center = scratch.sad + pattern.radius * side + pattern.radius;
+  mark_used(pattern, side, center);
   uint8_t* out = args.out;
   for (int32_t x = 0; x < args.width; ++x) {
     window_sad(args, x, scratch.sad);
