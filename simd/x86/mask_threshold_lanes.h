@@ -200,11 +200,17 @@ inline Bytes find_threshold(MaskScratch& scratch, int32_t bits, Bytes wanted) {
   }
 }
 
+struct LaneTable {
+  uint8_t lanes[2 * kLanes];  // set, then not
+  constexpr LaneTable() : lanes() {
+    for (int32_t i = 0; i < kLanes; ++i) lanes[i] = 0xff;
+  }
+};
+constexpr LaneTable kLaneTable{};
+
 // The bytes of the pixels, of kLanes, that lie in the row.
 inline Bytes lanes_of(int32_t pixels) {
-  alignas(32) uint8_t lanes[kLanes];
-  for (int32_t i = 0; i < kLanes; ++i) lanes[i] = i < pixels ? 0xff : 0;
-  return load(lanes);
+  return load(kLaneTable.lanes + kLanes - pixels);
 }
 
 // Words of the points: bit x says that the SAD of pixel x is within its threshold.
@@ -216,6 +222,7 @@ inline void threshold_points(const MaskThresholdArgs& args, int32_t x, int32_t b
     scratch.point_words[i][block] = signs(equal8(min8(sad, threshold), sad));
   }
   const Word beyond = signs(both(equal8(threshold, set8(-1)), lanes_of(pixels)));
+  if (beyond == 0) return;
   for (int32_t pixel = 0; pixel < pixels; ++pixel) {
     if ((beyond >> pixel & 1) == 0) continue;
     const uint32_t exact = exact_threshold(args, x + pixel, *scratch.points, scratch.exact_sad, scratch.histogram);
