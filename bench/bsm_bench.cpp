@@ -112,22 +112,21 @@ int savings_command(int argc, char** argv) {
   SavingsBench bench;
   host::Options options(
       kSavings, "bsm_bench savings LEFT RIGHT [options]",
-      "Times each saving of the kernels against the same computation without it, on rows of a pair of PPM or PGM\n"
-      "images, and checks that both write the same bytes.");
+      "Times each saving of the kernels and stages against the same computation without it, on rows of a pair of PPM or\n"
+      "PGM images, and checks that both write the same bytes.");
   options.positional("LEFT", &bench.left);
   options.positional("RIGHT", &bench.right);
-  options.integer("--bits", "N", &bench.bits, BSM_MIN_BITS, BSM_MAX_BITS, "descriptor length, a multiple of 64");
-  options.integer("--disparities", "D", &bench.disparities, 1, BSM_MAX_DISPARITY + 1,
-                  "how many disparities are searched, from 0 up");
+  bench.config.add_search(&options);
   options.integer("--repeat", "R", &bench.repeat, 1, 1000000, "rounds; the median is reported");
   options.flag("--csv", &bench.csv, "comma-separated values");
   int exit_code = kExitOk;
   if (!parse_command_line(argc, argv, &options, &exit_code)) return exit_code;
-  if (bench.bits % BSM_MIN_BITS != 0) {
-    return usage_error(kSavings, "--bits '" + std::to_string(bench.bits) + "': not a multiple of 64");
-  }
   std::string error;
-  if (run_savings_bench(bench, &error)) return kExitOk;
+  if (!bench.config.finish(&error)) return usage_error(kSavings, error);
+  size_t bytes = 0;
+  const bsm_status status = bsm_memory_required(&bench.config.config, &bytes);
+  if (status < 0) return usage_error(kSavings, host::config_error(status));
+  if (run_savings_bench(&bench, &error)) return kExitOk;
   complain(kSavings, error);
   return kExitData;
 }

@@ -7,11 +7,20 @@
 #include <string>
 #include <vector>
 
+#include "bench/frame_run.h"
 #include "bench/kernel_inputs.h"
+#include "bench/plain_forms.h"
+#include "bench/plain_stages.h"
 #include "host/image.h"
 #include "simd/kernels.h"
 
 namespace bsm::bench {
+
+void prepare(Inputs& inputs, kernel_scratch_fn* scratch, TwoOrdersArgs* args);
+// Rows are all that a stage of core/ takes.
+inline void prepare(Inputs&, kernel_scratch_fn*, RemoveSpecklesArgs*) {}
+inline void prepare(Inputs&, kernel_scratch_fn*, FillHolesArgs*) {}
+inline void prepare(Inputs&, kernel_scratch_fn*, MedianArgs*) {}
 
 // Arguments and the memory they point to.
 template <class Args>
@@ -22,22 +31,22 @@ struct Call {
 
 class PairRows {
  public:
-  // Reads the pair and computes, with the best kernels, what the stages hand to each other. False with a sentence.
-  bool open(const std::string& left_path, const std::string& right_path, int32_t bits, int32_t disparities,
-            std::string* error);
+  // Computes, with the kernels that the configuration allows, what the stages hand to each other for a pair of its size and
+  // format. False with a sentence.
+  bool open(const host::Image8& left, const host::Image8& right, const bsm_config& config, std::string* error);
 
-  int32_t width() const { return width_; }
-  int32_t height() const { return height_; }
-  int32_t bits() const { return bits_; }
-  int32_t disparities() const { return disparities_; }
-  bool gray() const { return planes_ == 1; }
+  int32_t width() const { return config_.width; }
+  int32_t height() const { return config_.height; }
+  const bsm_config& config() const { return config_; }
+  // What the kernels may use.
+  uint32_t features() const;
   // The rows that are measured, spread over the image.
   const std::vector<int32_t>& sampled() const { return sampled_; }
 
   // A kernel's arguments on row y, with outputs and scratch of their own.
   template <class Args>
   Call<Args> call(int32_t y, kernel_scratch_fn* scratch) const {
-    Call<Args> made{std::make_unique<Inputs>(width_, bits_, disparities_, kBlock), {}};
+    Call<Args> made{std::make_unique<Inputs>(config_.width, config_.bits, config_.num_disparities, kBlock), {}};
     prepare(*made.inputs, scratch, &made.args);
     use_row(y, *made.inputs, &made.args);
     return made;
@@ -54,18 +63,28 @@ class PairRows {
 
   void convert(const host::Image8& image, const Kernels& kernels, View* view);
   void describe(const Kernels& kernels, View* view);
-  bool match(const host::Image8& left, const host::Image8& right, int32_t smooth_passes, bsm_stage stage,
+  bool match(const host::Image8& left, const host::Image8& right, const bsm_config& config,
              std::vector<const uint16_t*>* levels, std::string* error);
   size_t row_of(int32_t y) const;
+  std::vector<const uint16_t*> rows_inside(const std::vector<const uint16_t*>& map, int32_t y, int32_t radius) const;
 
-  void window(int32_t y, int32_t radius, const View& view, Inputs& inputs, DescriptorCompareArgs* args) const;
-  void window(int32_t y, int32_t radius, const View& view, Inputs& inputs, MaskThresholdArgs* args) const;
+  void use_view(int32_t y, const View& view, Inputs& inputs, DescriptorCompareArgs* args) const;
+  void use_view(int32_t y, const View& view, Inputs& inputs, MaskThresholdArgs* args) const;
+  void use_row(int32_t y, Inputs& inputs, DescriptorCompareArgs* args) const;
   void use_row(int32_t y, Inputs& inputs, MaskThresholdArgs* args) const;
   void use_row(int32_t y, Inputs& inputs, MatchHammingArgs* args) const;
+  void use_row(int32_t y, Inputs& inputs, TwoOrdersArgs* args) const;
   void use_row(int32_t y, Inputs& inputs, AggregateAlongArgs* args) const;
+  void use_row(int32_t y, Inputs& inputs, VoteWeighArgs* args) const;
   void use_row(int32_t y, Inputs& inputs, MedianWeightedArgs* args) const;
+  void use_row(int32_t y, Inputs& inputs, RemoveSpecklesArgs* args) const;
+  void use_row(int32_t y, Inputs& inputs, FillHolesArgs* args) const;
+  void use_row(int32_t y, Inputs& inputs, MedianArgs* args) const;
 
-  int32_t width_ = 0, height_ = 0, planes_ = 0, bits_ = 0, disparities_ = 0;
+  bsm_config config_{};
+  FrameRun frame_;  // whose context holds the pattern
+  Pattern pattern_{};
+  int32_t planes_ = 0;
   ptrdiff_t plane_stride_ = 0;
   std::vector<int32_t> sampled_;
   View left_, right_;

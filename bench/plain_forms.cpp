@@ -55,6 +55,49 @@ void mask_colors_by_pair(const MaskThresholdArgs& args) {
   }
 }
 
+namespace {
+
+struct WindowScratch {
+  uint16_t sad[kMaxWindowSide * kMaxWindowSide];
+  uint16_t histogram[kMaxSad + 1];
+};
+
+}  // namespace
+
+uint64_t mask_whole_window_scratch(const KernelShape&) {
+  return sizeof(WindowScratch);
+}
+
+void mask_whole_window(const MaskThresholdArgs& args) {
+  WindowScratch& scratch = *static_cast<WindowScratch*>(args.scratch);
+  const Pattern& pattern = args.pattern;
+  const int32_t side = 2 * pattern.radius + 1;
+  const uint16_t* center = scratch.sad + pattern.radius * side + pattern.radius;
+  const auto weight = [center, side](const PixelPair& pair) {
+    return std::max(center[pair.py * side + pair.px], center[pair.qy * side + pair.qx]);
+  };
+  uint8_t* out = args.out;
+  for (int32_t x = 0; x < args.width; ++x) {
+    uint16_t* next = scratch.sad;
+    for (int32_t dy = 0; dy < side; ++dy) {
+      const uint8_t* row = args.rows[dy] + x - pattern.radius;
+      for (int32_t dx = 0; dx < side; ++dx) {
+        *next++ = static_cast<uint16_t>(sad(args.rows[pattern.radius] + x, row + dx, args.plane_stride, args.planes));
+      }
+    }
+    std::memset(scratch.histogram, 0, sizeof scratch.histogram);
+    for (int32_t i = 0; i < pattern.bits; ++i) ++scratch.histogram[weight(pattern.pairs[i])];
+    uint32_t threshold = 0;
+    int32_t counted = scratch.histogram[0];
+    while (counted < pattern.bits / 4) counted += scratch.histogram[++threshold];
+    for (int32_t first = 0; first < pattern.bits; first += 8) {
+      uint32_t byte = 0;
+      for (int32_t i = 7; i >= 0; --i) byte = 2 * byte + (weight(pattern.pairs[first + i]) <= threshold ? 1u : 0u);
+      *out++ = static_cast<uint8_t>(byte);
+    }
+  }
+}
+
 // --- match_hamming
 
 namespace {
@@ -150,6 +193,44 @@ void match_each_view(const MatchHammingArgs& args) {
   });
 }
 
+namespace {
+
+// count_shared, but words that both masks leave out are not looked at: three at a time, as they are counted.
+Costs count_nonzero(const uint8_t* a, const uint8_t* b, const uint8_t* left_mask, const uint8_t* right_mask, int32_t words) {
+  Costs costs{0, 0};
+  for (int32_t i = 0; i < words; i += 3) {
+    uint64_t left[3] = {0, 0, 0};
+    uint64_t right[3] = {0, 0, 0};
+    for (int32_t k = 0; k < 3 && i + k < words; ++k) {
+      left[k] = load_bits(left_mask + ptrdiff_t{i + k} * 8);
+      right[k] = load_bits(right_mask + ptrdiff_t{i + k} * 8);
+    }
+    if ((left[0] | left[1] | left[2] | right[0] | right[1] | right[2]) == 0) continue;
+    for (int32_t k = 0; k < 3 && i + k < words; ++k) {
+      const ptrdiff_t at = ptrdiff_t{i + k} * 8;
+      const uint64_t differing = load_bits(a + at) ^ load_bits(b + at);
+      left[k] &= differing;
+      right[k] &= differing;
+    }
+    costs.left += count_bits(left[0], left[1], left[2]);
+    costs.right += count_bits(right[0], right[1], right[2]);
+  }
+  return costs;
+}
+
+}  // namespace
+
+void match_given_order(const TwoOrdersArgs& args) {
+  match_all_bits(args.given);
+}
+
+void match_skipping_zeros(const TwoOrdersArgs& args) {
+  match_row(args.coherent, [words = args.coherent.bits / 64](const uint8_t* left, const uint8_t* right,
+                                                             const uint8_t* left_mask, const uint8_t* right_mask) {
+    return count_nonzero(left, right, left_mask, right_mask, words);
+  });
+}
+
 // --- aggregate_along
 
 namespace {
@@ -198,6 +279,40 @@ void aggregate_least_by_level(const AggregateAlongArgs& args) {
     std::swap(path, next);
     uint16_t* sum = args.sum + ptrdiff_t{x} * args.stride;
     for (int32_t level = 0; level < count; ++level) sum[level] = saturate(uint32_t{sum[level]} + path[level]);
+  }
+}
+
+// --- vote_weigh
+
+uint64_t vote_everywhere_scratch(const KernelShape& shape) {
+  return vote_weigh_scalar_scratch(shape);
+}
+
+void vote_everywhere(const VoteWeighArgs& args) {
+  uint32_t* votes = static_cast<uint32_t*>(args.scratch);
+  const int32_t radius = args.radius;
+  for (int32_t x = 0; x < args.width; ++x) {
+    std::fill_n(votes, args.num_disparities, 0u);
+    for (int32_t dy = -radius; dy <= radius; dy += args.step) {
+      const uint16_t* levels = args.levels[dy + radius];
+      for (int32_t dx = -radius; levels != nullptr && dx <= radius; dx += args.step) {
+        const int32_t i = x + dx;
+        if (i < 0 || i >= args.width || levels[i] >= kOccluded) continue;
+        const uint32_t color = sad(args.lab[radius] + x, args.lab[dy + radius] + i, args.plane_stride, args.planes);
+        const uint32_t exponent =
+            ((color * args.color_scale + 512) >> 10) + args.distance_steps[std::abs(dy) * (radius + 1) + std::abs(dx)];
+        if (exponent < static_cast<uint32_t>(args.weights_count)) votes[whole_level(levels[i])] += args.weights[exponent];
+      }
+    }
+    const auto winner = [votes](int32_t end) {
+      const uint32_t* const most = std::max_element(votes, votes + end);
+      return *most == 0 ? kNoLevel : static_cast<uint16_t>((most - votes) << kLevelShift);
+    };
+    const bool capped = args.cap != nullptr && args.cap[x] < args.num_disparities - 1;
+    uint16_t level = winner(capped ? args.cap[x] + 1 : args.num_disparities);
+    if (level == kNoLevel) level = winner(args.num_disparities);
+    const uint16_t own = args.levels[radius][x];
+    args.out[x] = own < kOccluded ? static_cast<uint16_t>(whole_level(own) << kLevelShift) : level;
   }
 }
 

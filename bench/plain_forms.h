@@ -11,24 +11,51 @@ namespace bsm::bench {
 mask_threshold_fn mask_colors_by_pair;
 kernel_scratch_fn mask_colors_by_pair_scratch;
 
+// mask_threshold_scalar, but colours are compared at every offset of the window.
+mask_threshold_fn mask_whole_window;
+kernel_scratch_fn mask_whole_window_scratch;
+
 // match_hamming_scalar without its early end, and the same with an XOR for each view.
 match_hamming_fn match_all_bits, match_each_view;
 kernel_scratch_fn match_all_bits_scratch, match_each_view_scratch;
 
+// The same pixels with their bits in two orders.
+struct TwoOrdersArgs {
+  MatchHammingArgs given;     // that of the pattern
+  MatchHammingArgs coherent;  // pairs whose points lie in the same directions side by side
+};
+
+// match_all_bits in the given order, and in the coherent one leaving out words that both masks leave out. No kernel does the
+// latter.
+void match_given_order(const TwoOrdersArgs& args);
+void match_skipping_zeros(const TwoOrdersArgs& args);
+
 // aggregate_along_scalar, but every level looks for the least of the predecessor's levels itself.
 aggregate_along_fn aggregate_least_by_level;
 kernel_scratch_fn aggregate_least_by_level_scratch;
+
+// vote_weigh_scalar, but every pixel asks its window, also one that keeps its level.
+vote_weigh_fn vote_everywhere;
+kernel_scratch_fn vote_everywhere_scratch;
 
 // median_weighted_scalar, but every window is sorted.
 median_weighted_fn median_by_sorting;
 kernel_scratch_fn median_by_sorting_scratch;
 
 #if BSM_ARCH_X86_64 && defined(BSM_BENCH_AVX2)
+// descriptor_compare_avx2, but every pair loads both of its points.
+descriptor_compare_fn descriptors_by_pair_avx2;
+
 // mask_threshold_avx2, but every pair compares with the threshold itself.
 mask_threshold_fn mask_threshold_by_pair_avx2;
 // mask_threshold_avx2, but T is found by bisection, one threshold a pass over the pairs; and by eight thresholds a pass with
 // the steps 32, 4 and 1 for all pixels.
 mask_threshold_fn mask_by_bisection_avx2, mask_by_even_steps_avx2;
+// mask_threshold_avx2, but pairs that come more than once are counted one by one.
+mask_threshold_fn mask_counting_each_avx2;
+
+// median_weighted_avx2, but blocks whose pixels keep their levels are weighed as well.
+median_weighted_fn median_of_all_blocks_avx2;
 #endif
 
 }  // namespace bsm::bench

@@ -1,10 +1,11 @@
-// The plain forms of mask_threshold_avx2, made of the kernel's own parts.
+// The plain forms of descriptor_compare_avx2 and mask_threshold_avx2, made of the kernel's own parts.
 #include "bench/plain_forms.h"
 #include "platform/compiler.h"
 
 #if BSM_ARCH_X86_64
 #include "simd/x86/lanes_avx2.h"
 
+#include "simd/x86/descriptor_compare_lanes.h"
 #include "simd/x86/mask_threshold_lanes.h"
 
 namespace bsm::bench {
@@ -62,6 +63,7 @@ void threshold_pairs(const MaskThresholdArgs& args, int32_t x, int32_t pixels, B
   Word* const words = scratch.words[0];
   for (int32_t i = 0; i < count; ++i) words[i] = signs(is_within(pair_weight(scratch, pairs[i]), threshold));
   const Word beyond = signs(both(equal8(threshold, set8(-1)), lanes_of(pixels)));
+  if (beyond == 0) return;
   for (int32_t pixel = 0; pixel < pixels; ++pixel) {
     if ((beyond >> pixel & 1) == 0) continue;
     const uint32_t exact = exact_threshold(args, x + pixel, *scratch.points, scratch.exact_sad, scratch.histogram);
@@ -75,6 +77,35 @@ void threshold_pairs(const MaskThresholdArgs& args, int32_t x, int32_t pixels, B
 }
 
 }  // namespace
+
+void descriptors_by_pair_avx2(const DescriptorCompareArgs& args) {
+  DescriptorScratch& scratch = *static_cast<DescriptorScratch*>(args.scratch);
+  const PatternPoints& points = args.pattern.order->points;
+  const uint16_t* const* rows = args.rows + args.pattern.radius;
+  const ptrdiff_t bytes = args.pattern.bits / 8;
+  for (int32_t i = 0; i < points.count; ++i) scratch.points[i] = rows[points.points[i].dy] + points.points[i].dx;
+  for (int32_t x = 0; x < args.width; x += kLanes) {
+    for (int32_t i = 0; i < args.pattern.bits; ++i) {
+      const uint16_t* const p = scratch.points[(points.pairs[i] & 0xffff) / 8] + x;
+      const uint16_t* const q = scratch.points[(points.pairs[i] >> 16) / 8] + x;
+      const Bytes low = not_above(load(p), q);
+      scratch.words[i] = signs(pack(low, not_above(load(p + kLanes / 2), q + kLanes / 2)));
+    }
+    const int32_t pixels = args.width - x < kLanes ? args.width - x : kLanes;
+    store_descriptors<true>(scratch.words, args.pattern.bits, kPackedByte, pixels, args.out + x * bytes, bytes);
+  }
+}
+
+void mask_counting_each_avx2(const MaskThresholdArgs& args) {
+  static PatternOrder order;  // large, and the same for all rows: copied once
+  if (order.singles_count == 0) order = *args.pattern.order;
+  order.singles = order.points.pairs;
+  order.singles_count = args.pattern.bits;
+  order.singles_twice = 0;
+  MaskThresholdArgs each = args;
+  each.pattern.order = &order;
+  threshold_masks(each);
+}
 
 void mask_threshold_by_pair_avx2(const MaskThresholdArgs& args) {
   static constexpr int32_t kInOrder[kLanes / 8] = {0, 1, 2, 3};

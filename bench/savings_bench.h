@@ -5,19 +5,20 @@
 #include <cstdint>
 #include <string>
 
+#include "host/config_options.h"
+
 namespace bsm::bench {
 
 struct SavingsBench {
-  std::string left, right;  // image files
-  int32_t bits = 256;
-  int32_t disparities = 64;
+  std::string left, right;     // image files
+  host::ConfigOptions config;  // finished
   int32_t repeat = 31;
   bool csv = false;
 };
 
 // Reads the pair, compares what both forms write, measures and prints. False with a sentence when a file stands in the way
 // or a saving changes its output.
-bool run_savings_bench(const SavingsBench& bench, std::string* error);
+bool run_savings_bench(SavingsBench* bench, std::string* error);
 
 }  // namespace bsm::bench
 

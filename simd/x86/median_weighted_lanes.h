@@ -262,7 +262,8 @@ inline Bytes flat_pixels(const Block& block, int32_t radius, int32_t half) {
   return flat;
 }
 
-template <int32_t kPlanes>
+// kAll: blocks whose pixels all keep their levels are weighed as well, to measure what leaving them out saves.
+template <int32_t kPlanes, bool kAll>
 inline void smooth_block(const Window& window, const Block& block, uint16_t* out) {
   const int32_t radius = window.args.radius;
   Bytes uneven[2];
@@ -271,7 +272,7 @@ inline void smooth_block(const Window& window, const Block& block, uint16_t* out
     uneven[half] = complement(flat_pixels(block, radius, half));
     store(out + half * kHalf, load(block.levels[radius] + block.x + half * kHalf));
   }
-  if (!any(either(uneven[0], uneven[1]))) return;
+  if (!kAll && !any(either(uneven[0], uneven[1]))) return;
   if (block.inside == nullptr) {
     weigh_block<kPlanes, true>(window, block);
   } else {
@@ -290,18 +291,18 @@ inline void smooth_block(const Window& window, const Block& block, uint16_t* out
   }
 }
 
-template <int32_t kPlanes>
+template <int32_t kPlanes, bool kAll>
 inline void smooth_blocks(const Window& window) {
   const MedianWeightedArgs& args = window.args;
   const int32_t radius = args.radius;
   for (int32_t x = 0; x < args.width; x += kLanes) {
     if (radius <= x && x + kLanes + radius <= args.width) {
       const Block block{args.levels, args.lab[radius], window.scratch.taps, args.plane_stride, nullptr, args.checked + x, x};
-      smooth_block<kPlanes>(window, block, args.out + x);
+      smooth_block<kPlanes, kAll>(window, block, args.out + x);
     } else {
       const Block block = copy_block(window, x);
       uint16_t* out = window.scratch.tile.out;
-      smooth_block<kPlanes>(window, block, out);
+      smooth_block<kPlanes, kAll>(window, block, out);
       const int32_t pixels = args.width - x < kLanes ? args.width - x : kLanes;
       BSM_MEMCPY(args.out + x, out, static_cast<size_t>(pixels) * sizeof *args.out);
     }
@@ -312,11 +313,12 @@ inline uint64_t median_scratch() {
   return sizeof(Scratch);
 }
 
+template <bool kAll = false>
 inline void smooth_levels(const MedianWeightedArgs& args) {
   Window window{args, *static_cast<Scratch*>(args.scratch), 0, 0};
   make_tables(window);
   list_taps(window);
-  return args.planes == 3 ? smooth_blocks<3>(window) : smooth_blocks<1>(window);
+  return args.planes == 3 ? smooth_blocks<3, kAll>(window) : smooth_blocks<1, kAll>(window);
 }
 
 }  // namespace

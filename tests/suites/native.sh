@@ -9,11 +9,12 @@ run_native() {
 # Each saving of the kernels writes the bytes of the same computation without it, and the measurement of them runs.
 savings_change_nothing() {
   # shellcheck disable=SC2034  # read by expect
-  local suite=native bits out=$root/build/tests/savings
+  local suite=native options out=$root/build/tests/savings
   expect "savings, scene" "$root/build/tests/platform/host/bsm" demo "$out" && gray_pair "$out" || return
-  for bits in 64 256 4096; do
-    expect "savings change nothing, $bits bits" "$root/build/tests/bench/bsm_bench" savings "$out/left.ppm" "$out/right.ppm" \
-      --bits "$bits" --repeat 1
+  for options in "fast" "balanced" "best" "local" "local --bits 64" "paper"; do
+    # shellcheck disable=SC2086  # options are words of their own
+    expect "savings change nothing, preset $options" "$root/build/tests/bench/bsm_bench" savings "$out/left.ppm" \
+      "$out/right.ppm" --preset $options --repeat 1
   done
   expect "savings change nothing, gray" "$root/build/tests/bench/bsm_bench" savings "$out/left.pgm" "$out/right.pgm" --repeat 1
 }
