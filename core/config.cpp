@@ -127,10 +127,7 @@ extern "C" bsm_status bsm_config_preset(bsm_config* config, bsm_preset preset) {
   if (config == nullptr) return BSM_ERROR_NULL;
   if (preset < BSM_PRESET_PAPER || preset > BSM_PRESET_LOCAL) return BSM_ERROR_PRESET;
   const bool paper = preset == BSM_PRESET_PAPER;
-  const bool best = preset == BSM_PRESET_BEST;
   const bool local = bsm::kHasLocal && preset == BSM_PRESET_LOCAL;
-  const bool gray = !paper && config->format == BSM_FORMAT_GRAY8;  // luma alone tells less: its differences weigh more
-  const bool few_gray = gray && preset == BSM_PRESET_FAST;         // the least to go by: surfaces may change more freely
   config->method = paper || local ? BSM_METHOD_LOCAL : BSM_METHOD_SGM;
   switch (preset) {
     case BSM_PRESET_FAST:
@@ -147,26 +144,29 @@ extern "C" bsm_status bsm_config_preset(bsm_config* config, bsm_preset preset) {
       config->bits = BSM_MAX_BITS;
   }
   config->sigma = paper ? 4 : 3;
-  config->paths = best ? 8 : 4;
-  config->p1 = best ? 60 : 160;  // more paths add up to more smoothness
-  config->p2 = best || few_gray ? 600 : 1000;
-  config->edge_threshold = few_gray ? 15 : gray ? 12 : 24;
-  config->edge_divisor = 6;
+  config->paths = preset == BSM_PRESET_BEST ? 8 : 4;
+  // One set for each method, whatever the length and the paths. Luma alone tells less: sgm weighs its differences double.
+  const int32_t scale = !paper && !local && config->format == BSM_FORMAT_GRAY8 ? 2 : 1;
+  config->p1 = 80;
+  config->p2 = 650;
+  config->edge_threshold = 24 / scale;
+  config->edge_divisor = 8;
   config->right_costs = BSM_RIGHT_COSTS_OWN;
   config->subpixel = paper ? 0 : 1;
   config->lr_tolerance = 1;
-  // Drops what agrees by chance: with masked costs alone, and with sums where the views differ in exposure.
-  config->speckle = local ? 10 : preset == BSM_PRESET_BALANCED && !gray ? 15 : 0;
+  // Drops what agrees by chance: with masked costs alone, and with sums where the views differ in exposure. Its rows take
+  // memory, which `fast` saves.
+  config->speckle = paper || preset == BSM_PRESET_FAST ? 0 : local ? 10 : 15;
   config->border = paper ? 0 : 1;
-  config->vote_radius = local && !gray ? 18 : 24;
+  config->vote_radius = 24;
   config->vote_step = paper ? 1 : 6;
-  config->vote_color = local ? (gray ? 2 : 3) : gray ? 4 : 9;  // more holes to fill: the vote keeps closer to its pixel
+  config->vote_color = paper ? 9 : local ? 2 : 6 / scale;  // more holes to fill: local's vote keeps closer to its pixel
   config->vote_distance = paper ? 16 : local ? 7 : 10;
   config->vote_cap = paper ? 0 : 1;
-  config->smooth_radius = best ? 5 : 4;
+  config->smooth_radius = 4;
   config->smooth_passes = paper ? 0 : 3;
-  config->smooth_color = gray ? (local ? 4 : 3) : 6;
-  config->smooth_distance = 7;
+  config->smooth_color = local ? 4 : 6 / scale;
+  config->smooth_distance = local ? 7 : 12;
   config->median = 1;
   return BSM_OK;
 }
