@@ -36,8 +36,9 @@ constexpr bool is_built(StageIndex stage) {
   }
 }
 
-// Kernels that read Pattern::order: those of x86 and of WebAssembly.
+// Kernels that read Pattern::order: those of x86 and of WebAssembly, and the masks of NEON and SVE.
 constexpr bool reads_order(StageIndex stage, uint32_t required) {
+  if (stage == mask_threshold_index && (required & kIsaNeon) == kIsaNeon) return true;
   return (stage == descriptor_compare_index || stage == mask_threshold_index) &&
          ((required & kIsaSse42) == kIsaSse42 || required == kIsaSimd128);
 }

@@ -1,10 +1,11 @@
-// Makes the order of a pattern: sorts its pairs by the points that they share.
+// Makes the order of a pattern: numbers its points, and sorts its pairs by those that they share.
 #include "simd/pattern_order.h"
 
-#if BSM_ARCH_X86_64 || BSM_ARCH_SIMD128
+#if BSM_ARCH_X86_64 || BSM_ARCH_SIMD128 || BSM_ARCH_NEON
 #include "simd/pattern_points.h"
 
 namespace bsm {
+#if BSM_SORTS_PAIRS
 namespace {
 
 // Pairs that repeat are counted apart when they are at least so many: else it takes as many groups.
@@ -124,7 +125,7 @@ void list_counted(int32_t bits, PatternOrder& order) {
 }  // namespace
 
 uint64_t pattern_order_bytes(int32_t bits) {
-  return sizeof(PatternOrder) + static_cast<uint64_t>(bits + most_singles(bits)) * sizeof(uint32_t) +
+  return sizeof(PatternOrder) + static_cast<uint64_t>(2 * bits + most_singles(bits)) * sizeof(uint32_t) +
          static_cast<uint64_t>(most_triples(bits)) * sizeof(PatternOrder::Triple);
 }
 
@@ -133,11 +134,24 @@ const PatternOrder* make_pattern_order(const Pattern& pattern, void* memory) {
   order->triples = reinterpret_cast<PatternOrder::Triple*>(order + 1);
   order->singles = reinterpret_cast<uint32_t*>(order->triples + most_triples(pattern.bits));
   order->partners = order->singles + most_singles(pattern.bits);
+  order->points.pairs = order->partners + pattern.bits;
   number_points(pattern, order->points);
   list_counted(pattern.bits, *order);
   list_groups(pattern.bits, *order);
   return order;
 }
+#else
+uint64_t pattern_order_bytes(int32_t bits) {
+  return sizeof(PatternOrder) + static_cast<uint32_t>(bits) * sizeof(uint32_t);
+}
+
+const PatternOrder* make_pattern_order(const Pattern& pattern, void* memory) {
+  PatternOrder* const order = static_cast<PatternOrder*>(memory);
+  order->points.pairs = reinterpret_cast<uint32_t*>(order + 1);
+  number_points(pattern, order->points);
+  return order;
+}
+#endif
 
 }  // namespace bsm
 #endif

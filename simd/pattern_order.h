@@ -17,11 +17,15 @@ struct PatternPoints {
     int8_t dx, dy;
   };
   int32_t count;
-  uint32_t pairs[BSM_MAX_BITS];  // 8 times the number of point p, 8 times that of q above it: one load for both
-  uint16_t number[kMaxPoints];   // by window offset
   Point points[kMaxPoints];
+  uint16_t number[kMaxPoints];  // by window offset
+  uint32_t* pairs;              // 8 times the number of point p, 8 times that of q above it: one load for both
 };
 
+// Machines whose kernels read the pairs sorted.
+#define BSM_SORTS_PAIRS (BSM_ARCH_X86_64 || BSM_ARCH_SIMD128)
+
+#if BSM_SORTS_PAIRS
 // The pairs once more, by the points that they share. Points are 8 times their numbers.
 struct PatternOrder {
   // The pairs of a point p. Groups are in the order of their size: loops over them turn often, but seldom unforeseen.
@@ -50,9 +54,14 @@ struct PatternOrder {
   uint16_t shares[kMaxPoints];
   uint16_t next[kMaxPoints];
 };
+#else
+struct PatternOrder {
+  PatternPoints points;
+};
+#endif
 
 // Kernels of these machines read Pattern::order.
-constexpr bool kOrdersPatterns = BSM_ARCH_X86_64 || BSM_ARCH_SIMD128;
+constexpr bool kOrdersPatterns = BSM_SORTS_PAIRS || BSM_ARCH_NEON;
 
 // Bytes of a pattern's order, and the order made there, 8-byte aligned.
 uint64_t pattern_order_bytes(int32_t bits);

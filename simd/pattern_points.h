@@ -12,6 +12,7 @@ inline int32_t window_index(int32_t dx, int32_t dy, int32_t radius) {
   return (dy + radius) * (2 * radius + 1) + dx + radius;
 }
 
+// out.pairs has room for the pattern's pairs.
 inline void number_points(const Pattern& pattern, PatternPoints& out) {
   const int32_t radius = pattern.radius;
   const int32_t side = 2 * radius + 1;

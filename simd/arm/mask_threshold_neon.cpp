@@ -35,7 +35,7 @@ struct LongScratch {
 struct Scratch {
   uint16_t exact_sad[kMaxPoints];
   uint16_t histogram[kMaxSad + 1];
-  PatternPoints points;
+  const PatternPoints* points;
   const uint8_t* point[kEvenPoints];  // first plane of each point, at x = 0
   uint16_t pairs[2 * BSM_MAX_BITS];   // bytes from the first vector of the points to those of p and q
   HighLevels high;
@@ -47,15 +47,15 @@ struct Scratch {
 
 // The pattern's points and pairs as the loops below take them.
 void list_points(const MaskThresholdArgs& args, Scratch& scratch) {
-  number_points(args.pattern, scratch.points);
+  scratch.points = &args.pattern.order->points;
   const uint8_t* const* rows = args.rows + args.pattern.radius;
-  for (int32_t i = 0; i < scratch.points.count; ++i) {
-    scratch.point[i] = rows[scratch.points.points[i].dy] + scratch.points.points[i].dx;
+  for (int32_t i = 0; i < scratch.points->count; ++i) {
+    scratch.point[i] = rows[scratch.points->points[i].dy] + scratch.points->points[i].dx;
   }
-  scratch.point[scratch.points.count] = scratch.point[0];
+  scratch.point[scratch.points->count] = scratch.point[0];
   static_assert(kLanes == 2 * 8, "the numbers of points are 8 apart");
   for (int32_t i = 0; i < args.pattern.bits; i += 4) {
-    vst1q_u16(scratch.pairs + 2 * i, vshlq_n_u16(vreinterpretq_u16_u32(vld1q_u32(scratch.points.pairs + i)), 1));
+    vst1q_u16(scratch.pairs + 2 * i, vshlq_n_u16(vreinterpretq_u16_u32(vld1q_u32(scratch.points->pairs + i)), 1));
   }
 }
 
@@ -78,7 +78,7 @@ inline void window_sad(const MaskThresholdArgs& args, int32_t x, const Scratch& 
     center[i] = vld1q_u8(own + offset[i]);
   }
   const uint8_t* const* point = scratch.point;
-  const uint8_t* const* const end = point + scratch.points.count;
+  const uint8_t* const* const end = point + scratch.points->count;
   for (; point < end; point += 2, sad += 2 * kRow) {
     const uint8x16_t first = sad_at<kPlanes>(point[0], offset, center);
     const uint8x16_t second = sad_at<kPlanes>(point[1], offset, center);
@@ -159,8 +159,8 @@ BSM_NOINLINE void store_masks(const Scratch& scratch, int32_t bits, uint8x16_t t
 // The mask of a pixel whose threshold a byte does not hold.
 void store_exact(const MaskThresholdArgs& args, int32_t x, Scratch& scratch) {
   const uint16_t* sad = scratch.exact_sad;
-  const uint32_t threshold = exact_threshold(args, x, scratch.points, scratch.exact_sad, scratch.histogram);
-  const uint32_t* pairs = scratch.points.pairs;
+  const uint32_t threshold = exact_threshold(args, x, *scratch.points, scratch.exact_sad, scratch.histogram);
+  const uint32_t* pairs = scratch.points->pairs;
   uint8_t* out = args.out + ptrdiff_t{x} * (args.pattern.bits / 8);
   for (int32_t byte = 0; byte < args.pattern.bits / 8; ++byte) {
     uint32_t bits = 0;
@@ -186,7 +186,7 @@ void store_beyond(const MaskThresholdArgs& args, int32_t x, int32_t pixels, uint
 void find_within(Scratch& scratch, const uint8x16_t (&threshold)[kGroups]) {
   const uint8_t* sad = scratch.many.sad;
   uint8_t* within = scratch.many.within;
-  const int32_t count = scratch.points.count;
+  const int32_t count = scratch.points->count;
   uint8x16_t most[kGroups];  // in registers: stores of bytes may change what lies in memory
   BSM_UNROLL
   for (int32_t g = 0; g < kGroups; ++g) most[g] = threshold[g];

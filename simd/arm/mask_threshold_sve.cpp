@@ -23,7 +23,7 @@ struct Scratch {
   uint8_t threshold[kTile];
   uint16_t exact_sad[kMaxPoints];
   uint16_t histogram[kMaxSad + 1];
-  PatternPoints points;
+  const PatternPoints* points;
 };
 
 template <int32_t kPlanes>
@@ -33,8 +33,8 @@ void window_sad(const MaskThresholdArgs& args, int32_t x, svbool_t pixels, Scrat
   const svuint8_t l = svld1(pixels, rows[0] + x);
   const svuint8_t a = kPlanes == 3 ? svld1(pixels, rows[0] + x + stride) : l;
   const svuint8_t b = kPlanes == 3 ? svld1(pixels, rows[0] + x + 2 * stride) : l;
-  for (int32_t i = 0; i < scratch.points.count; ++i) {
-    const uint8_t* at = rows[scratch.points.points[i].dy] + x + scratch.points.points[i].dx;
+  for (int32_t i = 0; i < scratch.points->count; ++i) {
+    const uint8_t* at = rows[scratch.points->points[i].dy] + x + scratch.points->points[i].dx;
     svuint8_t sad = svabd_x(pixels, l, svld1(pixels, at));
     if (kPlanes == 3) {
       sad = svqadd(sad, svabd_x(pixels, a, svld1(pixels, at + stride)));
@@ -82,7 +82,7 @@ BSM_NOINLINE svuint8_t enough(Scratch& scratch, int32_t bits, svbool_t pixels) {
   svuint8_t eights = zero;
   svuint8_t sixteens = zero;
   svuint8_t thirtytwos = zero;
-  const uint32_t* pairs = scratch.points.pairs;
+  const uint32_t* pairs = scratch.points->pairs;
   for (int32_t group = 0; group < groups; ++group) {
     svuint8_t half = zero;
     for (int32_t i = 0; i < 2; ++i) {
@@ -120,7 +120,7 @@ BSM_NOINLINE svuint8_t enough(Scratch& scratch, int32_t bits, svbool_t pixels) {
 // One pass with thresholds 1 << shift apart: threshold j is (j + 1 << shift) - 1 above `low`. Returns low raised by the
 // thresholds that are too low.
 inline svuint8_t narrow(Scratch& scratch, int32_t bits, svbool_t pixels, svuint8_t low, uint8_t shift) {
-  for (int32_t i = 0; i < scratch.points.count; ++i) {
+  for (int32_t i = 0; i < scratch.points->count; ++i) {
     const svuint8_t above = svlsr_x(pixels, svqsub(svld1(pixels, scratch.sad + i * kTile), low), shift);
     svst1(pixels, scratch.within + i * kTile, svlsl_x(pixels, svdup_u8(0xff), above));
   }
@@ -145,7 +145,7 @@ void store_masks(const Scratch& scratch, int32_t bits, svbool_t lanes, int32_t p
   const ptrdiff_t bytes = bits / 8;
   const int32_t half = lanes16();  // pixels of the lower half of a vector
   for (int32_t first = 0; first < bits; first += 64, out += 8) {
-    const uint32_t* pairs = scratch.points.pairs + first;
+    const uint32_t* pairs = scratch.points->pairs + first;
     const svuint8_t b0 = eight_within(scratch, pairs, lanes, threshold);
     const svuint8_t b1 = eight_within(scratch, pairs + 8, lanes, threshold);
     const svuint8_t b2 = eight_within(scratch, pairs + 16, lanes, threshold);
@@ -165,10 +165,10 @@ void store_masks(const Scratch& scratch, int32_t bits, svbool_t lanes, int32_t p
 // The mask of a pixel whose threshold a byte does not hold.
 void store_exact(const MaskThresholdArgs& args, int32_t x, Scratch& scratch) {
   const uint16_t* sad = scratch.exact_sad;
-  const uint32_t threshold = exact_threshold(args, x, scratch.points, scratch.exact_sad, scratch.histogram);
+  const uint32_t threshold = exact_threshold(args, x, *scratch.points, scratch.exact_sad, scratch.histogram);
   uint8_t* out = args.out + ptrdiff_t{x} * (args.pattern.bits / 8);
   for (int32_t i = 0; i < args.pattern.bits; ++i) {
-    const uint32_t pair = scratch.points.pairs[i];
+    const uint32_t pair = scratch.points->pairs[i];
     const bool within = sad[(pair & 0xffff) / 8] <= threshold && sad[(pair >> 16) / 8] <= threshold;
     const uint32_t byte = i % 8 == 0 ? 0u : out[i / 8];
     out[i / 8] = static_cast<uint8_t>(byte | (within ? 1u : 0u) << i % 8);
@@ -185,7 +185,7 @@ void mask_threshold_sve(const MaskThresholdArgs& args) {
   Scratch& scratch = *static_cast<Scratch*>(args.scratch);
   const int32_t bits = args.pattern.bits;
   const int32_t tile = lanes8() < kTile ? lanes8() : kTile;
-  number_points(args.pattern, scratch.points);
+  scratch.points = &args.pattern.order->points;
   for (int32_t x = 0; x < args.width; x += tile) {
     const int32_t pixels = args.width - x < tile ? args.width - x : tile;
     const svbool_t lanes = svwhilelt_b8(int32_t{0}, pixels);
