@@ -19,25 +19,13 @@ struct Matcher {
   std::string name;
   bool opencv = false;  // StereoSGBM instead of this library
   bsm_config config{};
-  bool drawn = true;  // as a matrix; otherwise in the tables alone
 };
-
-constexpr int32_t kSpeckle = 20;
-
-// A configuration as it is, and with a strong speckle filter, which takes out what agrees by chance where the signal is
-// lost.
-void add_both(const Configuration& configuration, std::vector<Matcher>* list) {
-  list->push_back({configuration.name, false, configuration.config, false});
-  list->push_back({configuration.name + ", speckle " + std::to_string(kSpeckle), false, configuration.config});
-  list->back().config.speckle = kSpeckle;
-}
 
 std::vector<Matcher> matchers(const Study& study) {
   const int32_t bits = study.options().quick ? 1024 : BSM_MAX_BITS;
+  const Configuration local = local_configuration(bits);
   const bsm_config balanced = preset_configuration(BSM_PRESET_BALANCED).config;
-  std::vector<Matcher> list;
-  add_both(local_configuration(bits), &list);
-  add_both({describe(balanced), balanced}, &list);
+  std::vector<Matcher> list = {{local.name, false, local.config}, {describe(balanced), false, balanced}};
   if (opencv_available()) list.push_back({"StereoSGBM", true, {}});
   return list;
 }
@@ -172,7 +160,7 @@ void report_study(Study& study, const std::string& file, const std::string& what
     summary.add({list[m].name, fixed(all.equal), fixed(all.different), fixed(all.ratio()), fixed(all.worse_alone),
                  fixed(all.worse_alone > 0.0 ? all.different / all.worse_alone : 0.0), fixed(unclipped.equal),
                  fixed(unclipped.different), fixed(unclipped.ratio())});
-    if (list[m].drawn) plot.panels.push_back({list[m].name, results[m].all});
+    plot.panels.push_back({list[m].name, results[m].all});
   }
   study.report().plot("figure3_" + file, draw_matrices(plot));
   study.report().data("figure3_" + file, cells);
@@ -188,8 +176,7 @@ void run(Study& study) {
       "Simulated: the scenes come in one exposure and one lighting here. Exposure: gains of exactly 1/4, 1 and 4 in linear "
       "light, Gaussian noise of standard deviation 2 levels, clipping, 8 bits. Lighting: gains in linear light that are "
       "even, fall from 1.5 at the left edge to 0.5 at the right, or have a bright spot of 2 off centre over 0.6; clipping, "
-      "8 bits. Each view has its own condition. \"speckle 20\" keeps a pixel that 20 % of its surroundings agree with; the "
-      "preset balanced asks 15 %, local 10 %. Nothing else differs from the presets.";
+      "8 bits. Each view has its own condition.";
   words += opencv_available() ? " " + opencv_name() + " StereoSGBM: 3-way, 3 x 3 blocks, holes filled."
                               : " StereoSGBM is absent: OpenCV was not found when this was built.";
   study.report().section("figure3", "Figure 3: radiometric differences", words);

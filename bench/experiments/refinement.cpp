@@ -16,6 +16,7 @@ struct Variant {
 
 constexpr Variant kVariants[] = {
     {"preset balanced", [](bsm_config*) {}},
+    {"without the speckle filter", [](bsm_config* config) { config->speckle = 0; }},
     {"without the border band", [](bsm_config* config) { config->border = 0; }},
     {"without the occlusion cap of votes", [](bsm_config* config) { config->vote_cap = 0; }},
     {"every pixel of the window votes", [](bsm_config* config) { config->vote_step = 1; }},
