@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <vector>
 
 #include "simd/pattern_points.h"
 
@@ -107,6 +108,8 @@ double bound_cycles(const Core& core, const DescriptorCompareArgs& args) {
 // instead of the passes, an AND of two results a pair.
 double bound_cycles(const Core& core, const MaskThresholdArgs& args) {
   const auto points = std::make_unique<PatternPoints>();
+  std::vector<uint32_t> pairs(static_cast<size_t>(args.pattern.bits));
+  points->pairs = pairs.data();
   number_points(args.pattern, *points);
   const double n = args.pattern.bits;
   const Effort sads = 1.0 * points->count * sad_of_point(core, args.planes);
