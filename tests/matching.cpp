@@ -2,6 +2,7 @@
 #include "matching.h"
 
 #include <algorithm>
+#include <set>
 #include <thread>
 
 #include "simd/kernels.h"
@@ -163,10 +164,15 @@ bsm_config config_for(int width, int height, bsm_format format) {
 }
 
 std::vector<uint32_t> isa_masks() {
-  std::vector<uint32_t> masks = {0};
-  const uint32_t features = bsm_cpu_features();
-  for (int bit = 0; bit < 32; ++bit) {
-    if (features >> bit & 1) masks.push_back(features & static_cast<uint32_t>((uint64_t{2} << bit) - 1));
+  std::vector<uint32_t> masks;
+  std::set<std::vector<bool>> seen;
+  for (int bits = 0; bits <= 32; ++bits) {
+    const uint32_t mask = bsm_cpu_features() & static_cast<uint32_t>((uint64_t{1} << bits) - 1);
+    std::vector<bool> runs;  // which kernels of the list can
+#define BSM_KERNEL(stage, operation, isa, required, block) runs.push_back(((required) & ~mask) == 0);
+#include "simd/kernels.def"
+#undef BSM_KERNEL
+    if (seen.insert(runs).second) masks.push_back(mask);
   }
   return masks;
 }

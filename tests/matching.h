@@ -59,8 +59,7 @@ bsm_config config_for(int width, int height, bsm_format format = BSM_FORMAT_RGB2
 // the method is semi-global in half of the cases, with paths that the row API can carry unless `whole_frame`.
 void randomize(Rng& rng, bsm_config& config, bool whole_frame = false);
 
-// Masks for bsm_config::isa_mask that choose different kernels here: 0 (scalar), then each feature of this machine with
-// those before it.
+// Masks for bsm_config::isa_mask, each of which chooses other kernels here: 0 (scalar) first, the best kernels last.
 std::vector<uint32_t> isa_masks();
 
 // Name of the instruction set of the best kernels that this machine runs under such a mask, as in simd/kernels.def.

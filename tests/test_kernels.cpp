@@ -3,7 +3,6 @@
 // kernels have to be the best chosen ones, for runs under an emulator.
 #include <cstdio>
 #include <cstdlib>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -67,21 +66,6 @@ void run_kernel(const char* name, uint32_t required, void (*run)(const Args&), k
   try_widths(Kernel<Args>{run, scratch, block}, Kernel<Args>{scalar, scalar_scratch, 1}, yard);
 }
 
-// Feature words of this machine that choose different kernels, without kernels first.
-std::vector<uint32_t> tiers() {
-  std::vector<uint32_t> words;
-  std::set<std::string> seen;
-  const uint32_t features = cpu_features();
-  for (int bit = -1; bit < 32; ++bit) {
-    const uint32_t word = bit < 0 ? 0 : features & static_cast<uint32_t>((uint64_t{2} << bit) - 1);
-    const Kernels kernels = select_kernels(word);
-    std::string names;
-    for (const char* name : kernels.name) names += std::string(name) + " ";
-    if (seen.insert(names).second) words.push_back(word);
-  }
-  return words;
-}
-
 }  // namespace
 
 TEST_CASE(kernels_equal_scalar) {
@@ -123,7 +107,9 @@ TEST_CASE(expected_instruction_set) {
 
 TEST_CASE(maps_are_the_same_for_every_choice) {
   Rng rng(seed());
-  const std::vector<uint32_t> words = tiers();
+  std::vector<uint32_t> masks = isa_masks();
+  masks.erase(masks.begin());  // scalar kernels give what is expected
+  if (masks.empty()) SKIP("this machine runs the scalar kernels alone");
   for (int i = 0; i < repeats(24); ++i) {
     bsm_config config = config_for(rng.range(1, 180), rng.range(1, 24), any_format(rng));
     randomize(rng, config, true);
@@ -133,9 +119,9 @@ TEST_CASE(maps_are_the_same_for_every_choice) {
     config.isa_mask = 0;
     const Scope scope(describe(config) + " " + content_name(content));
     const Maps expected = match_frame(config, pair);
-    for (const uint32_t word : words) {
-      config.isa_mask = word;
-      const Scope with("isa_mask " + text_of(word));
+    for (const uint32_t mask : masks) {
+      config.isa_mask = mask;
+      const Scope with("isa_mask " + text_of(mask));
       if (!check_same(match_frame(config, pair), expected)) return;
     }
   }
