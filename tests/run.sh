@@ -4,8 +4,8 @@ set -u -o pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
-# arm64 first: it brings the compiler that a proof of the native suite uses.
-all_suites="arm64 native tiers arm32 armv5 riscv64 s390x nosdk wasm embedding packages options cortexm clang asan tsan fuzz"
+# In an order that keeps two of them busy: what others go on with and what takes long first.
+all_suites="native arm64 asan tiers embedding armv5 options s390x cortexm clang arm32 tsan riscv64 nosdk fuzz packages wasm"
 
 usage() {
   cat << END
@@ -27,10 +27,14 @@ BSM_TEST_EFFORT scales the number of random cases, in percent; CC and CXX choose
 END
 }
 
-suites=""
+suites="" part=""
 while [ $# -gt 0 ]; do
   case $1 in
     --all) suites=$all_suites ;;
+    --part) # side_by_side.sh's
+      part=$2
+      shift
+      ;;
     --suite)
       [[ -n ${2:-} && " $all_suites " == *" $2 "* ]] || {
         echo "run.sh: --suite ${2:-}: the suites are $all_suites" >&2
@@ -55,7 +59,7 @@ done
 # shellcheck source-path=SCRIPTDIR source=../platform/host/require_tools.sh
 . "$root/platform/host/require_tools.sh"
 exec < /dev/null
-require_tools cc c++ cmake make || exit 1
+[ -n "$part" ] || require_tools cc c++ cmake make || exit 1
 
 jobs=$(getconf _NPROCESSORS_ONLN 2> /dev/null || echo 2)
 passed=0
@@ -138,6 +142,7 @@ run_suite() {
     failed+=("$suite build (the output is above and in $build/build.log)")
     return
   fi
+  wait_for tools
   rm -f "$build/Testing/Temporary/LastTest.log"
   (cd "$build" && ctest --output-on-failure -j "$jobs" -R "$pattern") 2>&1 | tee "$build/ctest.out"
   if [ -f "$build/Testing/Temporary/LastTest.log" ]; then
@@ -199,9 +204,10 @@ gray_pair() {
 }
 
 # emulate SUITE BUILD CPU:ISA... -- EMULATOR...: the tests of kernels and hashes on emulated CPUs, each of which has to choose the
-# kernels of that instruction set; an instruction that it lacks ends the test. As many run at once as there are processors here.
+# kernels of that instruction set; an instruction that it lacks ends the test. The first CPU of each instruction set computes
+# all hashes, the others those of the presets. As many run at once as there are processors here.
 emulate() {
-  local suite=$1 build=$2 cpus=() tests=(test_golden test_kernels test_targets) entry cpu isa name log all result
+  local suite=$1 build=$2 cpus=() tests=(test_golden test_kernels test_targets) entry cpu isa name log all result seen=" " runs=()
   shift 2
   while [ "$1" != -- ]; do
     cpus+=("$1")
@@ -210,13 +216,21 @@ emulate() {
   shift
   rm -rf "$build/emulated"
   mkdir -p "$build/emulated"
+  for entry in "${cpus[@]}"; do
+    isa=${entry#*:}
+    case $seen in
+      *" $isa "*) runs+=("$entry test_golden preset") ;;
+      *) runs=("$entry test_golden all" ${runs[@]+"${runs[@]}"}) ;;
+    esac
+    runs+=("$entry test_kernels all" "$entry test_targets all")
+    seen+="$isa "
+  done
   # shellcheck disable=SC2016  # expanded by the shell of each test
-  for name in "${tests[@]}"; do printf "$name %s\n" "${cpus[@]}"; done |
-    xargs -n 2 -P "$jobs" bash -c '
-      build=$0 emulator=("${@:1:$#-2}") name=${*: -2:1} entry=${*: -1}
-      log=$build/emulated/$entry.$name
-      BSM_EXPECT_ISA=${entry#*:} BSM_TEST_EFFORT=25 "${emulator[@]}" -cpu "${entry%%:*}" "$build/tests/$name" > "$log" 2>&1 &&
-        touch "$log.passed"' "$build" "$@"
+  printf '%s\n' "${runs[@]}" | xargs -n 3 -P "$jobs" bash -c '
+    build=$0 emulator=("${@:1:$#-3}") entry=${*: -3:1} name=${*: -2:1} cases=${*: -1}
+    log=$build/emulated/$entry.$name
+    BSM_EXPECT_ISA=${entry#*:} BSM_TEST_EFFORT=25 "${emulator[@]}" -cpu "${entry%%:*}" "$build/tests/$name" \
+      --filter "${cases#all}" > "$log" 2>&1 && touch "$log.passed"' "$build" "$@"
   for entry in "${cpus[@]}"; do
     cpu=${entry%%:*} isa=${entry#*:} all="" result=passed
     for name in "${tests[@]}"; do
@@ -241,11 +255,15 @@ for file in "$root"/tests/suites/*.sh; do
   . "$file"
 done
 
-for suite in ${suites:-native}; do
-  started=$SECONDS
-  "run_$suite"
-  echo "== $suite: $((SECONDS - started)) s"
-done
+# shellcheck source-path=SCRIPTDIR source=side_by_side.sh
+. "$root/tests/side_by_side.sh"
+if [ -n "$part" ]; then
+  run_part "$part"
+  exit
+fi
+# shellcheck disable=SC2086  # names of suites
+set -- ${suites:-native}
+if [ $# -gt 1 ]; then run_side_by_side "$@"; else run_part "$1"; fi
 
 if [ ${#table[@]} -gt 0 ]; then
   printf '\n== the synthetic scene on each target\n'

@@ -8,7 +8,7 @@ run_asan() {
     skipped+=("asan: ${CXX:-c++} does not link $sanitizers; install its sanitizer runtime (Debian: libasan, libubsan)")
     return
   fi
-  run_suite asan asan . -DCMAKE_BUILD_TYPE=RelWithDebInfo "-DCMAKE_C_FLAGS=$sanitizers" "-DCMAKE_CXX_FLAGS=$sanitizers"
+  run_suite asan asan . -DCMAKE_BUILD_TYPE=RelWithDebInfo -DBSM_BUILD_BENCH=OFF "-DCMAKE_C_FLAGS=$sanitizers" "-DCMAKE_CXX_FLAGS=$sanitizers"
 }
 
 run_tsan() {
