@@ -159,7 +159,7 @@ double bound_cycles(const Core& core, const CostHammingArgs& args) {
   if (is(core, "sse42")) return cycles(scalar, count * (words * Effort{4, loads, 0, 1} + Effort{1, 0, 1, 0}));
   const double vectors = 8.0 * args.bits / core.bytes / 64.0;  // of a candidate
   const double per_store = lanes(core, 2);
-  if (is(core, "avx512")) return cycles(core, count / 8 * (words * Effort{3, 2, 0, 1} + Effort{1 - 1, 0, 1, 1}));
+  if (is(core, "avx512")) return cycles(core, count / 8 * (words * Effort{3, 1, 0, 1} + Effort{1 - 1, 0, 1, 1}));
   if (is(core, "avx2")) {
     if (args.bits != 128 && args.bits != 256)
       return cycles(core, count / 4 * (words / 4 * Effort{8 + 3 * 5 + 7, 12, 0, 0} + Effort{18 + 3, 0, 1, 0}));

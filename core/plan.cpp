@@ -130,7 +130,7 @@ JobPlan plan_job(const bsm_config& config, const Kernels& kernels, const Plan& p
   job.edge = carver.take(sgm ? width : 0);
   job.row = carver.take(bytes_of(width));
   job.window = carver.take(static_cast<uint32_t>(2 * window_rows) * sizeof(void*));
-  job.kernel = carver.take(kernel_scratch_bytes(kernels, shape));
+  job.kernel = carver.take(kernel_scratch_bytes(kernels, shape, sgm));
   job.bytes = static_cast<size_t>(carver.used());
   return job;
 }

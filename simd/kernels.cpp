@@ -15,25 +15,27 @@ enum StageIndex : int32_t {
 };
 static_assert(int32_t{kStageCount} == int32_t{BSM_KERNEL_COUNT}, "bsm_kernel names every stage of simd/stages.def");
 
-// Stages that the build leaves out have no kernels.
-constexpr bool is_built(StageIndex stage) {
+// Whether one of the methods has a stage.
+constexpr bool is_run(StageIndex stage, bool local, bool sgm) {
   switch (stage) {
     case match_hamming_index:
-      return kHasLocal;
+      return local;
     case cost_hamming_index:
     case edge_threshold_index:
     case aggregate_along_index:
     case aggregate_across_index:
     case winner_sums_index:
-      return kHasSgm;
     case fraction_smooth_index:
-      return kHasSgm && kHasRefinement;
-    case vote_weigh_index:
-    case median_weighted_index:
-      return kHasRefinement;
+      return sgm;
     default:
       return true;
   }
+}
+
+// Stages that the build leaves out have no kernels.
+constexpr bool is_built(StageIndex stage) {
+  const bool refines = stage == fraction_smooth_index || stage == vote_weigh_index || stage == median_weighted_index;
+  return is_run(stage, kHasLocal, kHasSgm) && (!refines || kHasRefinement);
 }
 
 // Kernels that read Pattern::order: those of x86 and of WebAssembly, and the masks of NEON and SVE.
@@ -83,10 +85,12 @@ bool is_complete(const Kernels& kernels) {
   return kHasScalar || kernels.descriptor_compare != nullptr;
 }
 
-uint64_t kernel_scratch_bytes(const Kernels& kernels, const KernelShape& shape) {
+uint64_t kernel_scratch_bytes(const Kernels& kernels, const KernelShape& shape, bool sgm) {
   uint64_t most = 0;
-  for (kernel_scratch_fn* scratch : kernels.scratch) {
-    const uint64_t bytes = scratch == nullptr ? 0 : scratch(shape);
+  for (int32_t stage = 0; stage < kStageCount; ++stage) {
+    kernel_scratch_fn* scratch = kernels.scratch[stage];
+    if (scratch == nullptr || !is_run(static_cast<StageIndex>(stage), !sgm, sgm)) continue;
+    const uint64_t bytes = scratch(shape);
     most = most < bytes ? bytes : most;
   }
   return most;

@@ -284,8 +284,8 @@ Kernels select_kernels(uint32_t features);
 // False when `features` left a stage without a kernel, which takes a build without scalar kernels.
 bool is_complete(const Kernels& kernels);
 
-// Bytes of scratch that one job of these kernels needs, at most.
-uint64_t kernel_scratch_bytes(const Kernels& kernels, const KernelShape& shape);
+// Bytes of scratch that one job of these kernels needs, at most, for the stages of sgm or else of the local method.
+uint64_t kernel_scratch_bytes(const Kernels& kernels, const KernelShape& shape, bool sgm);
 
 }  // namespace bsm
 

@@ -132,7 +132,7 @@ TEST_CASE(descriptor_bytes) {
   for (int y = 0; y < rows; ++y) row_pointers.push_back(luma.data() + y * stride + pad);
   std::vector<uint8_t> memory(static_cast<size_t>(kRowWidth * pattern.bits / 8) + 64, 0);
   const bsm::KernelShape shape{kRowWidth, pattern.bits, pattern.radius, 3, 1};
-  std::vector<uint8_t> scratch(static_cast<size_t>(bsm::kernel_scratch_bytes(kernels, shape)) + 64);
+  std::vector<uint8_t> scratch(static_cast<size_t>(bsm::kernel_scratch_bytes(kernels, shape, false)) + 64);
   const auto aligned = [](std::vector<uint8_t>& bytes) {
     return bytes.data() + (64 - reinterpret_cast<uintptr_t>(bytes.data()) % 64) % 64;
   };
