@@ -17,12 +17,13 @@ and LLVM on Debian and Ubuntu when it may, and prints, for one thread:
 
   * instructions of a frame for the presets and, for the local method and sgm, against the number of descriptor bits
   * instructions of a frame by function, for AArch64 with NEON and the presets fast and paper
+  * instructions of the savings of the NEON kernels, without and with each, for the presets local and paper
   * estimates of llvm-mca, cycles for one round of each kernel's hottest loop
 
 Instructions are exact and the same on every machine; times of a real processor they are not.
 
   --disparities N   range searched, default 60
-  --quick           the preset fast alone, no lengths
+  --quick           the preset fast alone, no lengths, no savings
 END
 }
 
@@ -61,8 +62,8 @@ mkdir -p "$build"
 cc -std=c99 -Wall -Wextra -O2 -shared -fPIC -fvisibility=hidden "$root/bench/qemu/count_instructions.c" -o "$build/count.so"
 for target in aarch64-linux-gnu arm-linux-gnueabihf; do
   { cmake -S "$root" -B "$build/$target" "-DCMAKE_TOOLCHAIN_FILE=$root/toolchains/$target.cmake" -DCMAKE_BUILD_TYPE=Release \
-    -DCMAKE_EXE_LINKER_FLAGS=-static -DBSM_BUILD_TESTS=OFF -DBSM_BUILD_BENCH=OFF &&
-    cmake --build "$build/$target" --parallel "$(getconf _NPROCESSORS_ONLN)" --target bsm_program; } > "$build/build.log" 2>&1 ||
+    -DCMAKE_EXE_LINKER_FLAGS=-static -DBSM_BUILD_TESTS=OFF -DBSM_BUILD_BENCH=ON &&
+    cmake --build "$build/$target" --parallel "$(getconf _NPROCESSORS_ONLN)" --target bsm_program bsm_bench; } > "$build/build.log" 2>&1 ||
     fail "the build for $target failed; see $build/build.log" 1
 done
 
@@ -76,6 +77,29 @@ blocks() {
   "$emulator" -cpu "$cpu" -plugin "$build/count.so,out=$build/blocks" "$(program "$target")" match "${pair[@]}" \
     -o "$build/map.pfm" --disparities "$disparities" "$@" > /dev/null
   cat "$build/blocks"
+}
+
+# saving_count OPTION...: instructions of bsm_bench savings on AArch64.
+saving_count() {
+  qemu-aarch64 -cpu cortex-a53 -plugin "$build/count.so,out=$build/blocks" "$build/aarch64-linux-gnu/bench/bsm_bench" savings \
+    "${pair[@]}" --disparities "$disparities" "$@" > /dev/null && total < "$build/blocks"
+}
+
+# form_count FORM OPTION...: of one run of a form of a saving over the sampled rows.
+form_count() {
+  local form=$1 once
+  shift
+  once=$(saving_count --count "$form" --repeat 1 "$@") && echo $(($(saving_count --count "$form" --repeat 2 "$@") - once))
+}
+
+# print_savings OPTION...: each saving of the NEON kernels without and with it.
+print_savings() {
+  local saving plain saved
+  while IFS= read -r saving; do
+    plain=$(form_count plain --filter "$saving" "$@") && saved=$(form_count saved --filter "$saving" "$@")
+    awk -v name="$saving" -v plain="$plain" -v saved="$saved" \
+      'BEGIN { printf "%8.2f M without  %8.2f M with  x %.2f  %s\n", plain / 1e6, saved / 1e6, plain / saved, name }'
+  done < <(qemu-aarch64 "$build/aarch64-linux-gnu/bench/bsm_bench" savings "${pair[@]}" --list --filter _neon "$@")
 }
 
 total() { awk '{ sum += $1 * $2 } END { printf "%.0f\n", sum }'; }
@@ -170,4 +194,10 @@ for preset in "${presets[@]}"; do
   by_function --preset "$preset"
   echo "== aarch64-linux-gnu, NEON kernels: the hottest loop of each kernel with the preset $preset, estimates of llvm-mca"
   print_loops --preset "$preset"
+done
+
+[ "$quick" = 1 ] && exit 0
+for preset in local paper; do
+  echo "== aarch64-linux-gnu, NEON kernels: four rows without and with each saving, preset $preset"
+  print_savings --preset "$preset"
 done

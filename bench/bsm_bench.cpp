@@ -118,10 +118,16 @@ int savings_command(int argc, char** argv) {
   options.positional("RIGHT", &bench.right);
   bench.config.add_search(&options);
   options.integer("--repeat", "R", &bench.repeat, 1, 1000000, "rounds; the median is reported");
+  options.word("--filter", "TEXT", &bench.filter, "savings whose name or place, as --list has them, holds TEXT");
+  options.flag("--list", &bench.list, "name the savings that --count knows, and measure nothing");
+  options.word("--count", "FORM", &bench.count, "run one form R times and take no times, for an emulator: plain or saved");
   options.flag("--csv", &bench.csv, "comma-separated values");
   int exit_code = kExitOk;
   if (!parse_command_line(argc, argv, &options, &exit_code)) return exit_code;
   std::string error;
+  if (!bench.count.empty() && bench.count != "plain" && bench.count != "saved") {
+    return usage_error(kSavings, "--count '" + bench.count + "': neither plain nor saved");
+  }
   if (!bench.config.finish(&error)) return usage_error(kSavings, error);
   size_t bytes = 0;
   const bsm_status status = bsm_memory_required(&bench.config.config, &bytes);

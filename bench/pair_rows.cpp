@@ -138,7 +138,8 @@ bool PairRows::match(const host::Image8& left, const host::Image8& right, const 
   return true;
 }
 
-bool PairRows::open(const host::Image8& left, const host::Image8& right, const bsm_config& config, std::string* error) {
+bool PairRows::open(const host::Image8& left, const host::Image8& right, const bsm_config& config, bool maps,
+                    std::string* error) {
   config_ = config;
   planes_ = left.channels;
   plane_stride_ = width() + kBefore + kAfter;
@@ -146,10 +147,9 @@ bool PairRows::open(const host::Image8& left, const host::Image8& right, const b
   memory_ = std::make_unique<Inputs>(width(), config_.bits, config_.num_disparities, kBlock);
   bsm_config dense = config_;
   dense.smooth_passes = 0;
-  if (!match(left, right, at_stage(config_, BSM_STAGE_CHECKED), &checked_, error) ||
-      !match(left, right, at_stage(dense, BSM_STAGE_REFINED), &dense_, error)) {
-    return false;
-  }
+  if (maps && !match(left, right, at_stage(config_, BSM_STAGE_CHECKED), &checked_, error)) return false;
+  if (maps && !match(left, right, at_stage(dense, BSM_STAGE_REFINED), &dense_, error)) return false;
+  if (!maps && !frame_.open(config_, error)) return false;
   pattern_ = frame_.context()->pattern;
   const Kernels& kernels = frame_.context()->kernels;
   convert(left, kernels, &left_);

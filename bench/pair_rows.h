@@ -32,8 +32,9 @@ struct Call {
 class PairRows {
  public:
   // Computes, with the kernels that the configuration allows, what the stages hand to each other for a pair of its size and
-  // format. False with a sentence.
-  bool open(const host::Image8& left, const host::Image8& right, const bsm_config& config, std::string* error);
+  // format; without maps what needs no whole frame. False with a sentence.
+  bool open(const host::Image8& left, const host::Image8& right, const bsm_config& config, bool maps, std::string* error);
+  bool has_maps() const { return !dense_.empty(); }
 
   int32_t width() const { return config_.width; }
   int32_t height() const { return config_.height; }

@@ -58,6 +58,23 @@ mask_threshold_fn mask_counting_each_avx2;
 median_weighted_fn median_of_all_blocks_avx2;
 #endif
 
+#if BSM_ARCH_X86_64 && defined(BSM_BENCH_AVX512)
+// mask_threshold_avx512, but its first thresholds lie eight apart as the next ones do; and with pairs that come more than
+// once counted one by one.
+mask_threshold_fn mask_by_equal_steps_avx512, mask_counting_each_avx512;
+
+// vote_weigh_avx512, but pixel by pixel and each row of the window apart.
+vote_weigh_fn vote_by_row_avx512;
+#endif
+
+#if BSM_ARCH_NEON && defined(BSM_BENCH_NEON)
+// match_hamming_neon, but all candidates are counted to the end; and ending early, but without a guess that bounds them.
+match_hamming_fn match_all_bits_neon, match_without_guess_neon;
+
+// mask_threshold_neon, but long descriptors try all bits of a threshold.
+mask_threshold_fn mask_of_all_bits_neon;
+#endif
+
 }  // namespace bsm::bench
 
 #endif  // BSM_BENCH_PLAIN_FORMS_H

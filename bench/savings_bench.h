@@ -13,6 +13,9 @@ struct SavingsBench {
   std::string left, right;     // image files
   host::ConfigOptions config;  // finished
   int32_t repeat = 31;
+  std::string filter;  // savings whose "place: name" holds this
+  bool list = false;   // print those alone; savings of whole maps are not among them, nor counted
+  std::string count;   // "plain" or "saved": run that form alone and take no times, for an emulator that counts
   bool csv = false;
 };
 

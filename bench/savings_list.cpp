@@ -20,7 +20,7 @@ size_t values(int32_t a, int32_t b) {
   return static_cast<size_t>(a) * static_cast<size_t>(b);
 }
 
-std::vector<Output> outputs(const DescriptorCompareArgs& args) {
+[[maybe_unused]] std::vector<Output> outputs(const DescriptorCompareArgs& args) {  // not by every instruction set
   return {{args.out, values(args.width, args.pattern.bits / 8)}};
 }
 std::vector<Output> outputs(const MaskThresholdArgs& args) {
@@ -118,15 +118,15 @@ void add_scalar(const PairRows& rows, std::vector<Saving>* list) {
                                              "aggregate_along_scalar",
                                              {aggregate_least_by_level, aggregate_least_by_level_scratch},
                                              {aggregate_along_scalar, aggregate_along_scalar_scratch}));
+}
+
+void add_refinement(const PairRows& rows, std::vector<Saving>* list) {
   list->push_back(saving<VoteWeighArgs>(rows, "votes for pixels without a level alone", "vote_weigh_scalar",
                                         {vote_everywhere, vote_everywhere_scratch},
                                         {vote_weigh_scalar, vote_weigh_scalar_scratch}));
   list->push_back(saving<MedianWeightedArgs>(rows, "median sought only where the own level is none",
                                              "median_weighted_scalar", {median_by_sorting, median_by_sorting_scratch},
                                              {median_weighted_scalar, median_weighted_scalar_scratch}));
-}
-
-void add_stages(const PairRows& rows, std::vector<Saving>* list) {
   list->push_back(stage_saving(rows, "neighbours asked until they are enough", "core/speckle", speckles_of_all_neighbours));
   list->push_back(stage_saving(rows, "a hole's nearest levels found once, not by pixel", "core/holes", fill_by_pixel));
   list->push_back(stage_saving(rows, "columns sorted once for three medians", "core/median", median_by_sorting_nine));
@@ -150,9 +150,42 @@ void add_avx2(const PairRows& rows, std::vector<Saving>* list) {
       saving(rows, "T found by eight thresholds a pass, not by bisection", "mask_threshold_avx2", bisection, even));
   list->push_back(saving(rows, "steps of 8 and 1 while any T is open, not 32, 4 and 1", "mask_threshold_avx2", even, mask));
   list->push_back(saving(rows, "pairs that repeat counted once", "mask_threshold_avx2", each, mask));
+  if (!rows.has_maps()) return;
   list->push_back(saving<MedianWeightedArgs>(rows, "blocks that keep their levels left out", "median_weighted_avx2",
                                              {median_of_all_blocks_avx2, median_weighted_avx2_scratch},
                                              {median_weighted_avx2, median_weighted_avx2_scratch}));
+}
+#endif
+
+#if BSM_ARCH_X86_64 && defined(BSM_BENCH_AVX512)
+void add_avx512(const PairRows& rows, std::vector<Saving>* list) {
+  using Mask = Form<MaskThresholdArgs>;
+  if ((kIsaAvx512 & ~rows.features()) != 0) return;
+  const Mask mask{mask_threshold_avx512, mask_threshold_avx512_scratch};
+  const Mask equal_steps{mask_by_equal_steps_avx512, mask_threshold_avx512_scratch};
+  const Mask each{mask_counting_each_avx512, mask_threshold_avx512_scratch};
+  list->push_back(saving(rows, "first thresholds where most T are, found with the colours at hand", "mask_threshold_avx512",
+                         equal_steps, mask));
+  list->push_back(saving(rows, "pairs that repeat counted once", "mask_threshold_avx512", each, mask));
+  if (!rows.has_maps()) return;
+  list->push_back(saving<VoteWeighArgs>(rows, "taps of several rows or pixels weighed at once", "vote_weigh_avx512",
+                                        {vote_by_row_avx512, vote_weigh_avx512_scratch},
+                                        {vote_weigh_avx512, vote_weigh_avx512_scratch}));
+}
+#endif
+
+#if BSM_ARCH_NEON && defined(BSM_BENCH_NEON)
+void add_neon(const PairRows& rows, std::vector<Saving>* list) {
+  using Match = Form<MatchHammingArgs>;
+  if ((kIsaNeon & ~rows.features()) != 0) return;
+  const Match all_bits{match_all_bits_neon, match_hamming_neon_scratch};
+  const Match without_guess{match_without_guess_neon, match_hamming_neon_scratch};
+  const Match match{match_hamming_neon, match_hamming_neon_scratch};
+  list->push_back(saving(rows, "counting ends once none of four can win", "match_hamming_neon", all_bits, without_guess));
+  list->push_back(saving(rows, "the most promising candidate counted first", "match_hamming_neon", without_guess, match));
+  list->push_back(saving<MaskThresholdArgs>(rows, "bits that the last T needed tried first", "mask_threshold_neon",
+                                            {mask_of_all_bits_neon, mask_threshold_neon_scratch},
+                                            {mask_threshold_neon, mask_threshold_neon_scratch}));
 }
 #endif
 
@@ -161,9 +194,15 @@ void add_avx2(const PairRows& rows, std::vector<Saving>* list) {
 std::vector<Saving> all_savings(const PairRows& rows) {
   std::vector<Saving> list;
   add_scalar(rows, &list);
-  add_stages(rows, &list);
+  if (rows.has_maps()) add_refinement(rows, &list);
 #if BSM_ARCH_X86_64 && defined(BSM_BENCH_AVX2)
   add_avx2(rows, &list);
+#endif
+#if BSM_ARCH_X86_64 && defined(BSM_BENCH_AVX512)
+  add_avx512(rows, &list);
+#endif
+#if BSM_ARCH_NEON && defined(BSM_BENCH_NEON)
+  add_neon(rows, &list);
 #endif
   return list;
 }

@@ -278,8 +278,7 @@ inline __m512i find_threshold(Scratch& scratch, int32_t bits, __mmask64 wanted) 
 
 // Words of the points: bit x says that the SAD of pixel x is within its threshold.
 BSM_NOINLINE void threshold_points(const MaskThresholdArgs& args, int32_t x, int32_t block, __mmask64 wanted,
-                                   Scratch& scratch) {
-  const __m512i threshold = find_threshold(scratch, args.pattern.bits, wanted);
+                                   __m512i threshold, Scratch& scratch) {
   const int32_t count = scratch.points->count;
   for (int32_t i = 0; i < count; ++i) {
     scratch.point_words[i][block] = _mm512_cmple_epu8_mask(_mm512_load_si512(scratch.sad[i]), threshold);
@@ -309,13 +308,9 @@ BSM_NOINLINE void pair_words(Scratch& scratch, const uint32_t* pairs, int32_t co
   }
 }
 
-}  // namespace
-
-uint64_t mask_threshold_avx512_scratch(const KernelShape&) {
-  return sizeof(Scratch);
-}
-
-void mask_threshold_avx512(const MaskThresholdArgs& args) {
+// Finds the thresholds of each 64 pixels from x on by find(scratch, x, wanted), then their masks.
+template <class Find>
+BSM_INLINE void threshold_masks(const MaskThresholdArgs& args, const Find& find) {
   Scratch& scratch = *static_cast<Scratch*>(args.scratch);
   const int32_t bits = args.pattern.bits;
   const ptrdiff_t bytes = bits / 8;
@@ -331,12 +326,8 @@ void mask_threshold_avx512(const MaskThresholdArgs& args) {
     for (int32_t block = 0; block < blocks; ++block) {
       const int32_t begin = x + 64 * block;
       const int32_t pixels = args.width - begin < 64 ? args.width - begin : 64;
-      if (args.planes == 3) {
-        window_sad<3>(args, begin, scratch);
-      } else {
-        window_sad<1>(args, begin, scratch);
-      }
-      threshold_points(args, begin, block, ~uint64_t{0} >> (64 - pixels), scratch);
+      const __mmask64 wanted = ~uint64_t{0} >> (64 - pixels);
+      threshold_points(args, begin, block, wanted, find(scratch, begin, wanted), scratch);
     }
     for (int32_t first = 0; first < bits; first += kTileWords) {
       const int32_t count = bits - first < kTileWords ? bits - first : kTileWords;
@@ -348,6 +339,23 @@ void mask_threshold_avx512(const MaskThresholdArgs& args) {
       }
     }
   }
+}
+
+}  // namespace
+
+uint64_t mask_threshold_avx512_scratch(const KernelShape&) {
+  return sizeof(Scratch);
+}
+
+void mask_threshold_avx512(const MaskThresholdArgs& args) {
+  threshold_masks(args, [&args](Scratch& scratch, int32_t x, __mmask64 wanted) {
+    if (args.planes == 3) {
+      window_sad<3>(args, x, scratch);
+    } else {
+      window_sad<1>(args, x, scratch);
+    }
+    return find_threshold(scratch, args.pattern.bits, wanted);
+  });
 }
 
 }  // namespace bsm
