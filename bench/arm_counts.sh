@@ -17,7 +17,7 @@ and LLVM on Debian and Ubuntu when it may, and prints, for one thread:
 
   * instructions of a frame for the presets and, for the local method and sgm, against the number of descriptor bits
   * instructions of a frame by function, for AArch64 with NEON and the presets fast and paper
-  * instructions of the savings of the NEON kernels, without and with each, for the presets local and paper
+  * instructions of four rows matched without and with each saving of the NEON kernel, for the presets local and paper
   * estimates of llvm-mca, cycles for one round of each kernel's hottest loop
 
 Instructions are exact and the same on every machine; times of a real processor they are not.

@@ -70,9 +70,6 @@ vote_weigh_fn vote_by_row_avx512;
 #if BSM_ARCH_NEON && defined(BSM_BENCH_NEON)
 // match_hamming_neon, but all candidates are counted to the end; and ending early, but without a guess that bounds them.
 match_hamming_fn match_all_bits_neon, match_without_guess_neon;
-
-// mask_threshold_neon, but long descriptors try all bits of a threshold.
-mask_threshold_fn mask_of_all_bits_neon;
 #endif
 
 }  // namespace bsm::bench

@@ -183,9 +183,6 @@ void add_neon(const PairRows& rows, std::vector<Saving>* list) {
   const Match match{match_hamming_neon, match_hamming_neon_scratch};
   list->push_back(saving(rows, "counting ends once none of four can win", "match_hamming_neon", all_bits, without_guess));
   list->push_back(saving(rows, "the most promising candidate counted first", "match_hamming_neon", without_guess, match));
-  list->push_back(saving<MaskThresholdArgs>(rows, "bits that the last T needed tried first", "mask_threshold_neon",
-                                            {mask_of_all_bits_neon, mask_threshold_neon_scratch},
-                                            {mask_threshold_neon, mask_threshold_neon_scratch}));
 }
 #endif
 

@@ -213,33 +213,10 @@ BSM_NOINLINE uint8x16_t enough_within(Scratch& scratch, int32_t bits) {
   return enough(WithinPairs{scratch.many.within, scratch.pairs}, bits, scratch.high);
 }
 
-// Where a search for thresholds begins: with a step of 1 << bits when all thresholds lie below it. The bits that the last
-// pixels needed are tried first.
-inline int32_t larger_step(int32_t step) {
-  return step <= 64 ? 4 * step : 256;
-}
-
-inline int32_t bits_of(uint8_t most) {
-  int32_t bits = 3;
-  while (most >> bits != 0) ++bits;
-  return bits;
-}
-
-// True when all pixels of the groups have enough pairs within the threshold.
-bool all_enough(Scratch& scratch, int32_t bits, int32_t groups, uint8_t tested) {
-  uint8x16_t threshold[kGroups];
-  for (uint8x16_t& t : threshold) t = vdupq_n_u8(tested);
-  find_within(scratch, threshold);
-  const uint8x16_t others = vdupq_n_u8(static_cast<uint8_t>(0xff << groups));
-  return least8(vorrq_u8(enough_within(scratch, bits), others)) == 255;
-}
-
-// T of 128 pixels, as find_threshold. Groups from `groups` on do not count.
-void find_thresholds(Scratch& scratch, int32_t bits, int32_t groups, int32_t* top, uint8x16_t (&threshold)[kGroups]) {
-  int32_t step = 1 << *top;
-  while (step < 256 && !all_enough(scratch, bits, groups, static_cast<uint8_t>(step - 1))) step = larger_step(step);
+// T of 128 pixels, as find_threshold.
+void find_thresholds(Scratch& scratch, int32_t bits, uint8x16_t (&threshold)[kGroups]) {
   for (uint8x16_t& t : threshold) t = vdupq_n_u8(0);
-  for (step /= 2; step != 0; step /= 2) {
+  for (int32_t step = 128; step != 0; step /= 2) {
     const uint8x16_t below = vdupq_n_u8(static_cast<uint8_t>(step - 1));
     uint8x16_t tested[kGroups];
     for (int32_t g = 0; g < kGroups; ++g) tested[g] = vaddq_u8(threshold[g], below);
@@ -250,9 +227,6 @@ void find_thresholds(Scratch& scratch, int32_t bits, int32_t groups, int32_t* to
       threshold[g] = vaddq_u8(threshold[g], vbicq_u8(vdupq_n_u8(static_cast<uint8_t>(step)), is_enough));
     }
   }
-  uint8x16_t most = threshold[0];
-  for (int32_t g = 1; g < groups; ++g) most = vmaxq_u8(most, threshold[g]);
-  *top = bits_of(most8(most));
 }
 
 // Swaps the blocks of kShift bits above the diagonal of a with those below that of b; `kept` are the lower ones.
@@ -315,7 +289,6 @@ void threshold_short(const MaskThresholdArgs& args, Scratch& scratch) {
 
 void threshold_long(const MaskThresholdArgs& args, Scratch& scratch) {
   const int32_t bits = args.pattern.bits;
-  int32_t top = 5;
   BSM_MEMSET(scratch.many.sad, 0, sizeof scratch.many.sad);  // of groups beyond the row
   for (int32_t x = 0; x < args.width; x += kTile) {
     const int32_t pixels = args.width - x < kTile ? args.width - x : kTile;
@@ -324,7 +297,7 @@ void threshold_long(const MaskThresholdArgs& args, Scratch& scratch) {
       window_sad<kTile>(args, x + g * kLanes, scratch, scratch.many.sad + g * kLanes);
     }
     uint8x16_t threshold[kGroups];
-    find_thresholds(scratch, bits, groups, &top, threshold);
+    find_thresholds(scratch, bits, threshold);
     find_within(scratch, threshold);
     store_tile(scratch, bits, pixels, args.out + ptrdiff_t{x} * (bits / 8));
     for (int32_t g = 0; g < groups; ++g) store_beyond(args, x + g * kLanes, pixels - g * kLanes, threshold[g], scratch);

@@ -16,5 +16,6 @@ savings_change_nothing() {
     expect "savings change nothing, preset $options" "$root/build/tests/bench/bsm_bench" savings "$out/left.ppm" \
       "$out/right.ppm" --preset $options --repeat 1
   done
+  expect "every kernel measured" "$root/build/tests/bench/bsm_bench" kernels --width 64 --bits 128 --disparities 16 --repeat 1
   expect "savings change nothing, gray" "$root/build/tests/bench/bsm_bench" savings "$out/left.pgm" "$out/right.pgm" --repeat 1
 }
