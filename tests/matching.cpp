@@ -225,6 +225,14 @@ void randomize(Rng& rng, bsm_config& config, bool whole_frame) {
   config.isa_mask = masks[static_cast<size_t>(rng.range(0, static_cast<int>(masks.size()) - 1))];
 }
 
+bsm_config any_config(Rng& rng, int width, int height, bool whole_frame) {
+  bsm_config config = config_for(width, height, any_format(rng));
+  randomize(rng, config, whole_frame);
+  config.speckle = rng.one_in(2) ? 0 : rng.range(1, 100);
+  config.max_jobs = rng.range(1, 3);
+  return config;
+}
+
 size_t arena_bytes(const bsm_config& config) {
   size_t bytes = 0;
   REQUIRE_EQ(bsm_memory_required(&config, &bytes), BSM_OK);

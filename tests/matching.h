@@ -59,6 +59,9 @@ bsm_config config_for(int width, int height, bsm_format format = BSM_FORMAT_RGB2
 // the method is semi-global in half of the cases, with paths that the row API can carry unless `whole_frame`.
 void randomize(Rng& rng, bsm_config& config, bool whole_frame = false);
 
+// Such a configuration in any format, for up to three jobs.
+bsm_config any_config(Rng& rng, int width, int height, bool whole_frame = false);
+
 // Masks for bsm_config::isa_mask, each of which chooses other kernels here: 0 (scalar) first, the best kernels last.
 std::vector<uint32_t> isa_masks();
 
