@@ -1,13 +1,12 @@
 // Makes the order of a pattern: numbers its points, and sorts its pairs by those that they share.
 #include "simd/pattern_order.h"
 
-#if BSM_ARCH_X86_64 || BSM_ARCH_SIMD128 || BSM_ARCH_NEON
+#if BSM_SORTS_PAIRS || BSM_ARCH_NEON
 #include "simd/pattern_points.h"
 
 namespace bsm {
-#if BSM_SORTS_PAIRS
 namespace {
-
+#if BSM_SORTS_PAIRS
 // Pairs that repeat are counted apart when they are at least so many: else it takes as many groups.
 constexpr int32_t kApart = 64;
 
@@ -122,8 +121,10 @@ void list_counted(int32_t bits, PatternOrder& order) {
   end_groups(order);
 }
 
+#endif
 }  // namespace
 
+#if BSM_SORTS_PAIRS
 uint64_t pattern_order_bytes(int32_t bits) {
   return sizeof(PatternOrder) + static_cast<uint64_t>(2 * bits + most_singles(bits)) * sizeof(uint32_t) +
          static_cast<uint64_t>(most_triples(bits)) * sizeof(PatternOrder::Triple);
