@@ -29,18 +29,7 @@ void count_row(const CostHammingArgs& row) {
 }
 
 inline void count_costs(const CostHammingArgs& args) {
-  switch (args.bits / 64) {
-    case 1:
-      return count_row<1>(args);
-    case 2:
-      return count_row<2>(args);
-    case 3:
-      return count_row<3>(args);
-    case 4:
-      return count_row<4>(args);
-    default:
-      return count_row<0>(args);
-  }
+  with_words<4>(args.bits / 64, [&](auto words) { count_row<decltype(words)::kCount>(args); });
 }
 
 }  // namespace

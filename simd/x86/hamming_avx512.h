@@ -136,24 +136,6 @@ struct Block<0> {
   }
 };
 
-// A number of words that is known when compiling; 0 for any number.
-template <int32_t kWords>
-struct Words {
-  static constexpr int32_t kCount = kWords;
-};
-
-// Calls run(Words<n>{}) for descriptors of n words up to kMost, run(Words<0>{}) for longer ones.
-template <int32_t kMost, class Run>
-inline void with_words(int32_t words, const Run& run) {
-  if constexpr (kMost == 0) {
-    run(Words<0>{});
-  } else if (words == kMost) {
-    run(Words<kMost>{});
-  } else {
-    with_words<kMost - 1>(words, run);
-  }
-}
-
 }  // namespace
 }  // namespace bsm
 

@@ -1,5 +1,5 @@
-// Blocks of neighbours, a lane for each, that meet pixels of the other view one after the other: what does not depend on the
-// length of vectors.
+// Counts of descriptors by 64-bit words, and blocks of neighbours, a lane for each, that meet pixels of the other view one
+// after the other: what does not depend on the length of vectors.
 #ifndef BSM_SIMD_X86_HAMMING_BLOCKS_H
 #define BSM_SIMD_X86_HAMMING_BLOCKS_H
 
@@ -23,6 +23,24 @@ inline uint64_t load_word(const uint8_t* bytes) {
   uint64_t word;
   BSM_MEMCPY(&word, bytes, sizeof word);
   return word;
+}
+
+// A number of words that is known when compiling; 0 for any number.
+template <int32_t kWords>
+struct Words {
+  static constexpr int32_t kCount = kWords;
+};
+
+// Calls run(Words<n>{}) for descriptors of n words up to kMost, run(Words<0>{}) for longer ones.
+template <int32_t kMost, class Run>
+inline void with_words(int32_t words, const Run& run) {
+  if constexpr (kMost == 0) {
+    run(Words<0>{});
+  } else if (words == kMost) {
+    run(Words<kMost>{});
+  } else {
+    with_words<kMost - 1>(words, run);
+  }
 }
 
 // The pixels begin .. end - 1 of a row that meet a block; all of the block's pixels are candidates of those from all_begin
