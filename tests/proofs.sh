@@ -60,10 +60,13 @@ prove_symbols() {
   allowed+='|__gnu_thumb1_case_[us](qi|hi|si)' # switches on ARMv6-M
   allowed+='|__aeabi_(u?idiv(mod)?|u?ldivmod|lmul|llsl|llsr|lasr|u?lcmp|mem(cpy|move|set|clr)[48]?)'
   allowed+='|getauxval' # the capabilities of an ARM processor, which Linux and Android report
+  allowed+='|(__)?bzero|memset_pattern16' # what clang makes of memset for Apple's systems
   allowed+='|__mem(cpy|move|set)_chk|__stack_chk_(fail|guard)|_GLOBAL_OFFSET_TABLE_)$' # what distributions add
-  local defined undefined foreign
-  defined=$("$nm" -g --defined-only "$library" 2> /dev/null | awk 'NF >= 3 { print $3 }' | sort -u)
-  undefined=$("$nm" -u "$library" 2> /dev/null | awk '$1 == "U" || $1 == "w" || $1 == "v" { print $2 }' | sort -u)
+  local defined undefined foreign own=
+  # On Apple's systems every name begins with an underscore more.
+  "$nm" -g --defined-only "$library" 2> /dev/null | grep ' _bsm_open$' > /dev/null && own=_
+  defined=$("$nm" -g --defined-only "$library" 2> /dev/null | awk -v own="^$own" 'NF >= 3 { sub(own, "", $3); print $3 }' | sort -u)
+  undefined=$("$nm" -u "$library" 2> /dev/null | awk -v own="^$own" '!/:$/ { sub(own, "", $NF); print $NF }' | sort -u)
   [ -n "$defined" ] || fail "$nm finds no symbols in $library"
   foreign=$(comm -23 <(echo "$undefined") <(echo "$defined") | grep -Ev "$allowed" | grep .)
   [ -z "$foreign" ] || fail "the library needs: ${foreign//$'\n'/ }"
