@@ -149,7 +149,8 @@ double bound_cycles(const Core& core, const MatchHammingArgs& args) {
 // The same under one view's mask, every cost written. AVX-512: a lane for each of eight candidates, whose sums one move puts
 // into 16 bits and in order. AVX2: of 16 candidates, 8 vectors of counts are packed to one by 7 moves and added in pairs by
 // 1; 128 bits need two such groups of 8 and 2 moves to put candidates in order, 256 bits twice that and 2 more. Other
-// lengths take four candidates at once as in match_hamming, and 3 operations to put their sums into 16 bits and in order.
+// lengths take four candidates at once as in match_hamming, below four words without carry-save additions, and 3 operations
+// to put their sums into 16 bits and in order.
 double bound_cycles(const Core& core, const CostHammingArgs& args) {
   const double count = candidates(args.width, args.num_disparities);
   const double words = args.bits / 64.0;
@@ -161,6 +162,8 @@ double bound_cycles(const Core& core, const CostHammingArgs& args) {
   const double per_store = lanes(core, 2);
   if (is(core, "avx512")) return cycles(core, count / 8 * (words * Effort{3, 1, 0, 1} + Effort{1 - 1, 0, 1, 1}));
   if (is(core, "avx2")) {
+    if (args.bits == 64 || args.bits == 192)
+      return cycles(core, count / 4 * (words * Effort{9, 3, 0, 0} + Effort{3, 0, 1, 0}));
     if (args.bits != 128 && args.bits != 256)
       return cycles(core, count / 4 * (words / 4 * Effort{8 + 3 * 5 + 7, 12, 0, 0} + Effort{18 + 3, 0, 1, 0}));
     const double groups = args.bits / 128.0;

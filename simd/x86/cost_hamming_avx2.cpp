@@ -2,7 +2,9 @@
 // row, and go by 64-bit words at the ends of the row. Set bits are looked up by half bytes. Bound, per 256 bits of
 // candidates: 1 load, 9 operations; 13 to add up 16 candidates.
 // Other lengths take four pixels of the other view against own pixels one after the other, as in match_hamming. Bound for
-// four candidates, by four words: 8, 3 carry-save additions of 5, a count of 6, an addition; once 18, and 3 to 16 bits.
+// four candidates: by word 9, the first addition of which is none, once 1 to sum bytes; above 256 bits by four words 8, 3
+// carry-save additions of 5, a count of 6, an addition, once 18; and 3 to 16 bits. Three ports do them: 4 cycles for 64
+// bits, 10 for 192, 27 for 512.
 #include "platform/compiler.h"
 
 #if BSM_ARCH_X86_64
@@ -99,21 +101,22 @@ void count_row(const CostHammingArgs& row) {
   }
 }
 
-// Costs of the lanes against one own pixel, by 64-bit word.
-template <bool kMasked>
-inline __m256i count_lanes(const Block& block, View own, ptrdiff_t bytes) {
+// Costs of the lanes against one own pixel, by 64-bit word. kWords: words of a descriptor, few; 0 for any number.
+template <bool kMasked, int32_t kWords>
+BSM_INLINE __m256i count_lanes(const Block& block, View own, ptrdiff_t bytes) {
   Counter counter;
   const auto word = [&](ptrdiff_t i) {
     const __m256i differing = _mm256_xor_si256(every_word(own.descriptors + 8 * i), _mm256_load_si256(block.words + i));
     return kMasked ? _mm256_and_si256(differing, every_word(own.masks + 8 * i)) : differing;
   };
+  const ptrdiff_t words = kWords != 0 ? kWords : bytes / 8;
   ptrdiff_t i = 0;
-  for (; i + 4 <= bytes / 8; i += 4) {
-    const __m256i words[4] = {word(i), word(i + 1), word(i + 2), word(i + 3)};
-    counter.add_four(words);
+  for (; i + 4 <= words; i += 4) {
+    const __m256i four[4] = {word(i), word(i + 1), word(i + 2), word(i + 3)};
+    counter.add_four(four);
   }
-  for (; i < bytes / 8; ++i) counter.add(word(i));
-  return counter.sum_of_fours();
+  for (; i < words; ++i) counter.add(word(i));
+  return kWords != 0 && kWords < 4 ? counter.sum() : counter.sum_of_fours();
 }
 
 // Sets all costs of a pixel to none.
@@ -122,7 +125,7 @@ inline void clear(const CostHammingArgs& args, int32_t x) {
   for (int32_t level = 0; level < args.stride; level += kAtOnce) store(costs + level, ones());
 }
 
-template <bool kMasked>
+template <bool kMasked, int32_t kWords>
 BSM_NOINLINE void count_blocks(const CostHammingArgs& row) {
   const CostHammingArgs args = row;  // a copy, which the costs written cannot change
   const ptrdiff_t bytes = args.bits / 8;
@@ -139,21 +142,29 @@ BSM_NOINLINE void count_blocks(const CostHammingArgs& row) {
     const int32_t least = descending ? first + args.min_disparity : base - args.num_disparities + 1;
     const Span span(args.width, least, args.num_disparities, pixels, kPixels);
     for (; cleared < span.end; ++cleared) clear(args, cleared);
-    for (int32_t x = span.begin; x < span.end; ++x) {
-      const __m256i sums = count_lanes<kMasked>(block, View{args.own, args.own_mask}.from(x * bytes), bytes);
-      const __m128i pairs = _mm_packus_epi32(_mm256_castsi256_si128(sums), _mm256_extracti128_si256(sums, 1));
-      const uint64_t four = static_cast<uint64_t>(_mm_cvtsi128_si64(_mm_shuffle_epi8(pairs, order)));
-      const int32_t level = base + step * x;
-      uint16_t* costs = args.cost + ptrdiff_t{x} * args.stride + level;
-      if (span.all_begin <= x && x < span.all_end) {
-        BSM_MEMCPY(costs, &four, sizeof four);
-        continue;
+    const auto four_costs = [&](View own) {  // in the order of levels
+      const __m256i sums = count_lanes<kMasked, kWords>(block, own, bytes);
+      return _mm_shuffle_epi8(_mm_packus_epi32(_mm256_castsi256_si128(sums), _mm256_extracti128_si256(sums, 1)), order);
+    };
+    View own = View{args.own, args.own_mask}.from(span.begin * bytes);
+    uint16_t* costs = args.cost + ptrdiff_t{span.begin} * args.stride + base + step * span.begin;
+    const auto advance = [&] {
+      own = own.from(bytes);
+      costs += args.stride + step;
+    };
+    int32_t x = span.begin;
+    const int32_t ends[] = {span.all_begin, span.end};
+    for (const int32_t end : ends) {
+      for (; x < end; ++x, advance()) {  // some of the block's pixels are candidates
+        const uint64_t four = static_cast<uint64_t>(_mm_cvtsi128_si64(four_costs(own)));
+        const int32_t level = base + step * x;
+        for (int32_t i = 0; i < kPixels; ++i) {
+          const int32_t pixel = descending ? kPixels - 1 - i : i;
+          const bool candidate = pixel < pixels && 0 <= level + i && level + i < args.num_disparities;
+          if (candidate) costs[i] = static_cast<uint16_t>(four >> (16 * i));
+        }
       }
-      for (int32_t i = 0; i < kPixels; ++i) {
-        const int32_t pixel = descending ? kPixels - 1 - i : i;
-        const bool candidate = pixel < pixels && 0 <= level + i && level + i < args.num_disparities;
-        if (candidate) costs[i] = static_cast<uint16_t>(four >> (16 * i));
-      }
+      for (; x < span.all_end; ++x, advance()) _mm_storel_epi64(reinterpret_cast<__m128i*>(costs), four_costs(own));
     }
   }
   for (; cleared < args.width; ++cleared) clear(args, cleared);
@@ -166,14 +177,10 @@ uint64_t cost_hamming_avx2_scratch(const KernelShape& shape) {
 }
 
 void cost_hamming_avx2(const CostHammingArgs& args) {
-  switch (args.bits / 64) {
-    case 2:
-      return count_row<2>(args);
-    case 4:
-      return count_row<4>(args);
-    default:
-      return args.own_mask == nullptr ? count_blocks<false>(args) : count_blocks<true>(args);
-  }
+  if (args.bits == 128) return count_row<2>(args);
+  if (args.bits == 256) return count_row<4>(args);
+  if (args.own_mask == nullptr) return count_blocks<false, 0>(args);  // for studies: any length alike
+  with_words<7>(args.bits / 64, [&](auto words) { count_blocks<true, decltype(words)::kCount>(args); });
 }
 
 }  // namespace bsm

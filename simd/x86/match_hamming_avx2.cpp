@@ -151,16 +151,7 @@ uint64_t match_hamming_avx2_scratch(const KernelShape& shape) {
 
 void match_hamming_avx2(const MatchHammingArgs& args) {
   if (args.left_mask == nullptr) return match_row<false, 0>(args);  // for studies: any length alike
-  switch (args.bits / 64) {
-    case 1:
-      return match_row<true, 1>(args);
-    case 2:
-      return match_row<true, 2>(args);
-    case 4:
-      return match_row<true, 4>(args);
-    default:
-      return match_row<true, 0>(args);
-  }
+  with_words<4>(args.bits / 64, [&](auto words) { match_row<true, decltype(words)::kCount>(args); });
 }
 
 }  // namespace bsm
