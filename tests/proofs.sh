@@ -88,6 +88,8 @@ prove_sections() {
       if (name ~ /^\.(data|bss|tdata|tbss|sdata|sbss)($|\.)/ && name !~ /^\.data\.rel\.ro/) print object, name, "0x" size
       if (name ~ /^\.(init_array|ctors|preinit_array|fini_array|dtors|init|fini)($|\.)/) print object, name, "0x" size
       if (name ~ /^\.gcc_except_table/) print object, name, "0x" size
+      # The names that Apple gives them.
+      if (name ~ /^__(data|bss|common|thread_(vars|data|bss)|mod_(init|term)_func|gcc_except_tab)$/) print object, name, "0x" size
     }')
   [ -z "$bad" ] || fail "sections that may not be there: $bad"
   bad=$("$nm" "$library" 2> /dev/null | awk '$2 ~ /^[CBbDd]$/ { print $2, $3 }' | grep -v '_GLOBAL_OFFSET_TABLE_' |

@@ -4,6 +4,31 @@
 run_native() {
   run_suite native tests . -DCMAKE_BUILD_TYPE=Release
   savings_change_nothing
+  check_presets
+}
+
+# CMake takes each preset, and the toolchain file that it names is there.
+preset_is_whole() {
+  local output toolchain
+  output=$(cd "$root" && cmake --preset "$1" -N) || return
+  toolchain=$(sed -n 's/^ *CMAKE_TOOLCHAIN_FILE.*="\(.*\)"$/\1/p' <<< "$output")
+  echo "$output"
+  grep -q 'CMAKE_BUILD_TYPE=' <<< "$output" && { [ -z "$toolchain" ] || [ -f "$root/$toolchain" ]; }
+}
+
+check_presets() {
+  # shellcheck disable=SC2034  # read by expect
+  local suite=native preset presets version
+  version=$(cmake --version | sed -n '1s/.* //p')
+  if [ "$(printf '%s\n' 3.21 "$version" | sort -V | head -n 1)" != 3.21 ]; then
+    skipped+=("native, presets: CMake $version is older than 3.21")
+    return
+  fi
+  presets=$(sed -nE 's/.*"configurePreset": "([^"]+)".*/\1/p' "$root/CMakePresets.json" | sort -u)
+  for preset in $presets; do expect "preset $preset" preset_is_whole "$preset"; done
+  expect "each toolchain file of a machine has a preset" \
+    diff <(grep -x '.*-.*\|wasm32' <<< "$presets" | grep -v '^cortex-m$') \
+    <(find "$root/toolchains" -name '*-*.cmake' ! -name cortex-m.cmake -o -name wasm32.cmake | sed 's|.*/||; s|\.cmake$||' | sort)
 }
 
 # Each saving of the kernels writes the bytes of the same computation without it, and the measurement of them runs.

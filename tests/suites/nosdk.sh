@@ -94,6 +94,9 @@ check_xcode() {
   expect "xcode, compiles kernels for each machine" make -C "$folder/core" __/simd/x86/mask_threshold_avx2.o __/simd/arm/mask_threshold_neon.o
 }
 
+# llvm_proof PROOF LIBRARY: a proof of proofs.sh about the objects of another system.
+llvm_proof() { env NM=llvm-nm-16 OBJDUMP=llvm-objdump-16 bash "$root/tests/proofs.sh" "$@"; }
+
 # check_phone NAME ARCH ISA|ISA.. COMMAND [ABI]: the command builds the library of a phone in the folder that it is given.
 check_phone() {
   local name=$1 arch=$2 isas=$3 command=$4 folder=$root/build/nosdk/$1
@@ -101,7 +104,8 @@ check_phone() {
   expect "$name compiles" "$command" "$folder" "$@" || return
   expect "$name is for $arch" is_for "$folder" "$arch"
   expect "$name, kernels" slice_has "$folder" "" "$isas"
-  expect "$name, needs memory functions and integer helpers alone" env NM=llvm-nm-16 bash "$root/tests/proofs.sh" symbols "$folder/core/libbsm.a"
+  expect "$name, needs memory functions and integer helpers alone" llvm_proof symbols "$folder/core/libbsm.a"
+  expect "$name, no writable data, no constructors" llvm_proof sections "$folder/core/libbsm.a"
 }
 
 run_nosdk() {
