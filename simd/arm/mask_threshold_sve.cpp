@@ -1,7 +1,7 @@
 // mask_threshold, SVE: a vector of neighbouring pixels at once, 64 at most.
 // The SADs of the window's points saturate at 255. A pass tries eight thresholds: bit j of a byte says that the SAD is
-// within threshold j, a pair is one AND, and carry-save adders count; three passes find a threshold below 255, thresholds
-// from 255 on are found exactly, pixel by pixel. Bound, per pair, pass and vector: 6 operations, 2 loads.
+// within threshold j, a pair is one AND, and carry-save adders count; two passes find most thresholds, and those from 255 on
+// are found exactly, pixel by pixel. Bound, per pair, pass and vector: 6 operations, 2 loads.
 #include "platform/compiler.h"
 
 #if BSM_ARCH_SVE
@@ -117,15 +117,36 @@ BSM_NOINLINE svuint8_t enough(Scratch& scratch, int32_t bits, svbool_t pixels) {
   return result;
 }
 
-// One pass with thresholds 1 << shift apart: threshold j is (j + 1 << shift) - 1 above `low`. Returns low raised by the
-// thresholds that are too low.
-inline svuint8_t narrow(Scratch& scratch, int32_t bits, svbool_t pixels, svuint8_t low, uint8_t shift) {
+// One pass with thresholds 1 << kShift apart: threshold j is (j + 1 << kShift) - 1 above `low`. T lies within low..high,
+// both included, before and after.
+template <int32_t kShift>
+inline void narrow(Scratch& scratch, int32_t bits, svbool_t pixels, svuint8_t& low, svuint8_t& high) {
+  constexpr uint8_t kStep = 1 << kShift;
   for (int32_t i = 0; i < scratch.points->count; ++i) {
-    const svuint8_t above = svlsr_x(pixels, svqsub(svld1(pixels, scratch.sad + i * kTile), low), shift);
+    svuint8_t above = svqsub(svld1(pixels, scratch.sad + i * kTile), low);
+    if (kShift != 0) above = svlsr_x(pixels, above, static_cast<uint8_t>(kShift));
     svst1(pixels, scratch.within + i * kTile, svlsl_x(pixels, svdup_u8(0xff), above));
   }
   const svuint8_t passed = svcnt_x(pixels, enough(scratch, bits, pixels));
-  return svadd_x(pixels, low, svlsl_x(pixels, svsub_x(pixels, svdup_u8(8), passed), shift));
+  low = svqadd(low, svlsl_x(pixels, svsub_x(pixels, svdup_u8(8), passed), static_cast<uint8_t>(kShift)));
+  const svuint8_t top = svmin_x(pixels, high, svqadd(low, static_cast<uint8_t>(kStep - 1)));
+  high = svsel(svcmpeq(pixels, passed, uint8_t{0}), high, top);
+}
+
+// T of the pixels; 255 stands for anything from 255 up. Two passes find T below 64, where most are; each 64 more take one
+// more.
+inline svuint8_t find_threshold(Scratch& scratch, int32_t bits, svbool_t pixels) {
+  svuint8_t low = svdup_u8(0);
+  svuint8_t high = svdup_u8(255);
+  for (;;) {
+    const uint8_t width = svmaxv(pixels, svsub_x(pixels, high, low));
+    if (width == 0) return low;
+    if (width <= 7) {
+      narrow<0>(scratch, bits, pixels, low, high);
+    } else {
+      narrow<3>(scratch, bits, pixels, low, high);
+    }
+  }
 }
 
 // Bits of eight pairs: both points' SADs are within the threshold.
@@ -194,9 +215,7 @@ void mask_threshold_sve(const MaskThresholdArgs& args) {
     } else {
       window_sad<1>(args, x, lanes, scratch);
     }
-    svuint8_t threshold = narrow(scratch, bits, lanes, svdup_u8(0), 5);
-    threshold = narrow(scratch, bits, lanes, threshold, 2);
-    threshold = narrow(scratch, bits, lanes, threshold, 0);
+    const svuint8_t threshold = find_threshold(scratch, bits, lanes);
     store_masks(scratch, bits, lanes, pixels, threshold, args.out + ptrdiff_t{x} * (bits / 8));
     const svbool_t beyond = svcmpeq(lanes, threshold, uint8_t{255});
     if (!svptest_any(lanes, beyond)) continue;
