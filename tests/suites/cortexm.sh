@@ -74,7 +74,7 @@ make_float_library() {
 
 # test_core CORE BOARD ISA: everything about one core on its board with much memory.
 test_core() {
-  local core=$1 board=$2 isa=$3 before=${#failed[@]} kernels=$3 result=passed
+  local core=$1 board=$2 isa=$3 before=${#failed[@]} kernels=$3 result=passed way arguments
   expect "$core, build" build "$root" "$root/build/cortex-$core" all "-DCMAKE_TOOLCHAIN_FILE=$root/toolchains/cortex-$core.cmake" \
     -DCMAKE_BUILD_TYPE=Release -DBSM_WERROR=ON || {
     add_row "cortex-$core" "$board" - - - - failed
@@ -96,9 +96,14 @@ test_core() {
     gives_hash "256 rgb24 refined left" "$isa" "$core" "$board" probe preset=paper bits=256 frame=1
   if [ "$isa" != scalar ]; then
     kernels+=+scalar
-    expect "$core, $board: sgm, rows, scalar" gives_hash "fast rgb24 refined left" scalar "$core" "$board" probe preset=fast scalar=1
-    expect "$core, $board: local, rows, scalar" \
-      gives_hash "256 rgb24 refined left" scalar "$core" "$board" probe preset=paper bits=256 scalar=1
+    for way in rows frame; do
+      arguments=(scalar=1)
+      [ $way = rows ] || arguments+=(frame=1)
+      expect "$core, $board: sgm, $way, scalar" \
+        gives_hash "fast rgb24 refined left" scalar "$core" "$board" probe preset=fast "${arguments[@]}"
+      expect "$core, $board: local, $way, scalar" \
+        gives_hash "256 rgb24 refined left" scalar "$core" "$board" probe preset=paper bits=256 "${arguments[@]}"
+    done
   fi
   [ "$isa" = scalar ] || test_kernels_on "$core" "$board" "$isa"
   [ ${#failed[@]} -eq "$before" ] || result=failed
