@@ -5,8 +5,8 @@
 # tools_of SUITE: the programs that its require_tools asks for.
 tools_of() {
   case $1 in
-    arm64) echo aarch64-linux-gnu-g++ qemu-aarch64 ;;
-    arm32) echo arm-linux-gnueabihf-g++ qemu-arm ;;
+    arm64) echo aarch64-linux-gnu-g++ qemu-aarch64 clang clang++ ;;
+    arm32) echo arm-linux-gnueabihf-g++ qemu-arm clang clang++ ;;
     armv5) echo arm-linux-gnueabi-g++ qemu-arm ;;
     riscv64) echo riscv64-linux-gnu-g++ qemu-riscv64 ;;
     s390x) echo s390x-linux-gnu-g++ qemu-s390x ;;

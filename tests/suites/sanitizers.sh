@@ -1,5 +1,10 @@
 # shellcheck shell=bash disable=SC2154  # root, jobs and the counts are run.sh's
-# The native tests with AddressSanitizer and UndefinedBehaviorSanitizer; those that run threads with ThreadSanitizer.
+# The native tests with AddressSanitizer and UndefinedBehaviorSanitizer; those that run threads with ThreadSanitizer. Proofs about
+# objects and text are the native suite's.
+
+# Little optimization and debug information: sanitized code takes long to compile, and reports name its lines.
+sanitized_build=(-DCMAKE_BUILD_TYPE=RelWithDebInfo "-DCMAKE_C_FLAGS_RELWITHDEBINFO=-O1 -g1 -DNDEBUG"
+  "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1 -DNDEBUG" -DBSM_BUILD_BENCH=OFF)
 
 run_asan() {
   local sanitizers="-fsanitize=address,undefined,alignment -fno-sanitize-recover=all -fno-omit-frame-pointer"
@@ -8,7 +13,7 @@ run_asan() {
     skipped+=("asan: ${CXX:-c++} does not link $sanitizers; install its sanitizer runtime (Debian: libasan, libubsan)")
     return
   fi
-  run_suite asan asan . -DCMAKE_BUILD_TYPE=RelWithDebInfo -DBSM_BUILD_BENCH=OFF "-DCMAKE_C_FLAGS=$sanitizers" "-DCMAKE_CXX_FLAGS=$sanitizers"
+  run_suite asan asan '^test_' "${sanitized_build[@]}" "-DCMAKE_C_FLAGS=$sanitizers" "-DCMAKE_CXX_FLAGS=$sanitizers"
 }
 
 run_tsan() {
@@ -19,6 +24,5 @@ run_tsan() {
     skipped+=("tsan: ${CXX:-c++} does not link $sanitizer; install its runtime (Debian: libtsan2)")
     return
   fi
-  run_suite tsan tsan '^test_(sequence|stream)$' -DCMAKE_BUILD_TYPE=RelWithDebInfo -DBSM_BUILD_BENCH=OFF \
-    "-DCMAKE_C_FLAGS=$sanitizer" "-DCMAKE_CXX_FLAGS=$sanitizer"
+  run_suite tsan tsan '^test_(sequence|stream)$' "${sanitized_build[@]}" "-DCMAKE_C_FLAGS=$sanitizer" "-DCMAKE_CXX_FLAGS=$sanitizer"
 }
