@@ -35,6 +35,7 @@ uint32_t x86_features(const X86Registers& registers);
 struct ArmCapabilities {
   uint64_t hwcap;
   uint64_t hwcap2;
+  uint32_t sve_bytes;  // of a vector; read only with SVE
 };
 uint32_t arm64_features(const ArmCapabilities& capabilities);
 uint32_t arm32_features(const ArmCapabilities& capabilities);

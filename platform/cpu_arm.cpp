@@ -3,7 +3,9 @@
 #include "platform/cpu.h"
 
 #if BSM_ARCH_NEON && defined(__linux__)
-extern "C" unsigned long getauxval(unsigned long type);  // of the C library, declared here to include none of its headers
+// Of the C library, declared here to include none of its headers.
+extern "C" unsigned long getauxval(unsigned long type);
+extern "C" int prctl(int option, ...);
 #endif
 
 namespace bsm {
@@ -18,6 +20,8 @@ constexpr uint64_t kSve2In2 = uint64_t{1} << 1;  // second word
 constexpr uint64_t kNeon32 = uint64_t{1} << 12;
 constexpr uint64_t kDotProd32 = uint64_t{1} << 24;
 
+constexpr uint32_t kShortSve = 512 / 8;  // bytes: vectors below it are short
+
 }  // namespace
 
 uint32_t arm64_features(const ArmCapabilities& capabilities) {
@@ -27,6 +31,7 @@ uint32_t arm64_features(const ArmCapabilities& capabilities) {
   if ((capabilities.hwcap & kSve64) == 0) return features;
   features |= kCpuSve;
   if ((capabilities.hwcap2 & kSve2In2) != 0) features |= kCpuSve2;
+  if (capabilities.sve_bytes < kShortSve) features |= kCpuSveShort;
   return features;
 }
 
@@ -49,6 +54,7 @@ constexpr uint32_t compiled_features() {
 #endif
 #if defined(__ARM_FEATURE_SVE)
   features |= kCpuSve;
+  if (__ARM_FEATURE_SVE_BITS < 8 * kShortSve) features |= kCpuSveShort;  // 0: not known
 #endif
 #if defined(__ARM_FEATURE_SVE2)
   features |= kCpuSve2;
@@ -69,8 +75,10 @@ uint32_t cpu_features() {
 #if BSM_ARCH_NEON && defined(__linux__)
   constexpr unsigned long kHwcap = 16;
   constexpr unsigned long kHwcap2 = 26;
-  const ArmCapabilities capabilities{getauxval(kHwcap), getauxval(kHwcap2)};
+  ArmCapabilities capabilities{getauxval(kHwcap), getauxval(kHwcap2), 0};
 #if defined(__aarch64__)
+  constexpr int kSveGetLength = 51;  // bytes in the lowest 16 bits
+  if ((capabilities.hwcap & kSve64) != 0) capabilities.sve_bytes = static_cast<uint32_t>(prctl(kSveGetLength)) & 0xffffu;
   features = arm64_features(capabilities);
 #else
   features = arm32_features(capabilities);

@@ -97,15 +97,17 @@ TEST_CASE(x86_leaves_that_do_not_exist) {
 }
 
 TEST_CASE(arm_capabilities) {
-  CHECK_EQ(arm64_features({0, 0}), 0u);
-  CHECK_EQ(arm64_features({1u << 1, 0}), uint32_t{kCpuNeon});
-  CHECK_EQ(arm64_features({1u << 1 | 1u << 20, 0}), kCpuNeon | kCpuDotProd);
-  CHECK_EQ(arm64_features({1u << 1 | 1u << 22, 0}), kCpuNeon | kCpuSve);
-  CHECK_EQ(arm64_features({1u << 1 | 1u << 22, 1u << 1}), kCpuNeon | kCpuSve | kCpuSve2);
-  CHECK_EQ(arm64_features({1u << 1, 1u << 1}), uint32_t{kCpuNeon});  // SVE2 builds upon SVE
-  CHECK_EQ(arm32_features({0, 0}), 0u);
-  CHECK_EQ(arm32_features({1u << 12, 0}), uint32_t{kCpuNeon});
-  CHECK_EQ(arm32_features({1u << 12 | 1u << 24, 0}), kCpuNeon | kCpuDotProd);
+  CHECK_EQ(arm64_features({0, 0, 0}), 0u);
+  CHECK_EQ(arm64_features({1u << 1, 0, 0}), uint32_t{kCpuNeon});
+  CHECK_EQ(arm64_features({1u << 1 | 1u << 20, 0, 0}), kCpuNeon | kCpuDotProd);
+  CHECK_EQ(arm64_features({1u << 1 | 1u << 22, 0, 64}), kCpuNeon | kCpuSve);
+  CHECK_EQ(arm64_features({1u << 1 | 1u << 22, 0, 256}), kCpuNeon | kCpuSve);
+  CHECK_EQ(arm64_features({1u << 1 | 1u << 22, 0, 32}), kCpuNeon | kCpuSve | kCpuSveShort);
+  CHECK_EQ(arm64_features({1u << 1 | 1u << 22, 1u << 1, 64}), kCpuNeon | kCpuSve | kCpuSve2);
+  CHECK_EQ(arm64_features({1u << 1, 1u << 1, 64}), uint32_t{kCpuNeon});  // SVE2 builds upon SVE
+  CHECK_EQ(arm32_features({0, 0, 0}), 0u);
+  CHECK_EQ(arm32_features({1u << 12, 0, 0}), uint32_t{kCpuNeon});
+  CHECK_EQ(arm32_features({1u << 12 | 1u << 24, 0, 0}), kCpuNeon | kCpuDotProd);
 }
 
 // M-profile processors report nothing: a host sees only that the sets build upon each other and bear names.
@@ -114,8 +116,8 @@ TEST_CASE(m_profile) {
   CHECK_EQ(kIsaMve, kCpuArmDsp | kCpuMve);
   CHECK_EQ(std::string(cpu_feature_name(24)), std::string("dsp"));
   CHECK_EQ(std::string(cpu_feature_name(25)), std::string("mve"));
-  CHECK_EQ(arm32_features({~uint64_t{0}, ~uint64_t{0}}) & kIsaMve, 0u);  // no Linux machine has them
-  CHECK_EQ(arm64_features({~uint64_t{0}, ~uint64_t{0}}) & kIsaMve, 0u);
+  CHECK_EQ(arm32_features({~uint64_t{0}, ~uint64_t{0}, ~uint32_t{0}}) & kIsaMve, 0u);  // no Linux machine has them
+  CHECK_EQ(arm64_features({~uint64_t{0}, ~uint64_t{0}, ~uint32_t{0}}) & kIsaMve, 0u);
 }
 
 TEST_CASE(names) {
