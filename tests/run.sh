@@ -203,11 +203,11 @@ gray_pair() {
   done
 }
 
-# emulate SUITE BUILD CPU:ISA... -- EMULATOR...: the tests of kernels and hashes on emulated CPUs, each of which has to choose the
-# kernels of that instruction set; an instruction that it lacks ends the test. The first CPU of each instruction set computes
-# all hashes, the others those of the presets. As many run at once as there are processors here.
+# emulate SUITE BUILD CPU:ISA[:all]... -- EMULATOR...: the tests of kernels and hashes on emulated CPUs, each of which has to
+# choose the kernels of that instruction set; an instruction that it lacks ends the test. CPUs with ":all" compute all hashes,
+# the others those of the presets. As many run at once as there are processors here.
 emulate() {
-  local suite=$1 build=$2 cpus=() tests=(test_golden test_kernels test_targets) entry cpu isa name log all result seen=" " runs=()
+  local suite=$1 build=$2 cpus=() tests=(test_golden test_kernels test_targets) entry cpu isa name log all result runs=()
   shift 2
   while [ "$1" != -- ]; do
     cpus+=("$1")
@@ -217,22 +217,22 @@ emulate() {
   rm -rf "$build/emulated"
   mkdir -p "$build/emulated"
   for entry in "${cpus[@]}"; do
-    isa=${entry#*:}
-    case $seen in
-      *" $isa "*) runs+=("$entry test_golden preset") ;;
-      *) runs=("$entry test_golden all" ${runs[@]+"${runs[@]}"}) ;;
+    case $entry in
+      *:all) runs=("$entry test_golden all" ${runs[@]+"${runs[@]}"}) ;; # the longest, so first
+      *) runs+=("$entry test_golden preset") ;;
     esac
     runs+=("$entry test_kernels all" "$entry test_targets all")
-    seen+="$isa "
   done
   # shellcheck disable=SC2016  # expanded by the shell of each test
   printf '%s\n' "${runs[@]}" | xargs -n 3 -P "$jobs" bash -c '
     build=$0 emulator=("${@:1:$#-3}") entry=${*: -3:1} name=${*: -2:1} cases=${*: -1}
     log=$build/emulated/$entry.$name
+    entry=${entry%:all}
     BSM_EXPECT_ISA=${entry#*:} BSM_TEST_EFFORT=25 "${emulator[@]}" -cpu "${entry%%:*}" "$build/tests/$name" \
       --filter "${cases#all}" > "$log" 2>&1 && touch "$log.passed"' "$build" "$@"
   for entry in "${cpus[@]}"; do
-    cpu=${entry%%:*} isa=${entry#*:} all="" result=passed
+    isa=${entry%:all} cpu=${entry%%:*} all="" result=passed
+    isa=${isa#*:}
     for name in "${tests[@]}"; do
       log=$build/emulated/$entry.$name
       if [ -e "$log.passed" ]; then

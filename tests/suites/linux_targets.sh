@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC2154  # root, jobs and the counts are run.sh's
 # Linux on other processors, under emulation: ARM with its kernels, and machines that run the scalar ones.
 
-# cross SUITE TRIPLE EMULATOR CPU:ISA...
+# cross SUITE TRIPLE EMULATOR CPU:ISA[:all]...
 cross() {
   local suite=$1 triple=$2 emulator=$3 build=$root/build/$1
   shift 3
@@ -81,8 +81,8 @@ traps() {
 }
 
 run_arm64() {
-  cross arm64 aarch64-linux-gnu qemu-aarch64 cortex-a53:neon cortex-a76:neon a64fx:sve max,sve128=on:neon max,sve256=on:neon \
-    max,sve-default-vector-length=256:sve
+  cross arm64 aarch64-linux-gnu qemu-aarch64 cortex-a53:neon:all cortex-a76:neon a64fx:sve:all max,sve128=on:neon \
+    max,sve256=on:neon max,sve-default-vector-length=256:sve
   measures arm64 neon qemu-aarch64 -cpu cortex-a53
   measures arm64 sve qemu-aarch64 -cpu a64fx
   traps arm64 aarch64-linux-gnu qemu-aarch64 -L /usr/aarch64-linux-gnu -cpu max,sve256=on
@@ -94,7 +94,7 @@ run_arm64() {
   scan_refuses arm64 aarch64-linux-gnu
 }
 run_arm32() {
-  cross arm32 arm-linux-gnueabihf qemu-arm cortex-a7:neon cortex-a9,neon=off:scalar
+  cross arm32 arm-linux-gnueabihf qemu-arm cortex-a7:neon:all cortex-a9,neon=off:scalar:all
   measures arm32 neon qemu-arm -cpu cortex-a7
   traps arm32 arm-linux-gnueabihf qemu-arm -L /usr/arm-linux-gnueabihf -cpu cortex-a7
   scan arm32 arm-linux-gnueabihf -march=armv7-a -mfpu=vfpv3-d16 -mthumb
@@ -107,7 +107,7 @@ run_armv5() {
   scan armv5 arm-linux-gnueabi -march=armv5te -mfpu=softvfp
 }
 run_riscv64() {
-  cross riscv64 riscv64-linux-gnu qemu-riscv64 rv64:scalar
+  cross riscv64 riscv64-linux-gnu qemu-riscv64 rv64:scalar:all
   scan riscv64 riscv64-linux-gnu
 }
-run_s390x() { cross s390x s390x-linux-gnu qemu-s390x max:scalar; }
+run_s390x() { cross s390x s390x-linux-gnu qemu-s390x max:scalar:all; }

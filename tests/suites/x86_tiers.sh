@@ -9,6 +9,6 @@ run_tiers() {
     skip_target x86-64 - "qemu-x86_64 is not installed and cannot be installed here (Debian and Ubuntu: apt-get install qemu-user)"
   elif [ -x "$root/build/tests/tests/test_kernels" ]; then
     echo "== tiers: x86 processors of several ages"
-    emulate x86-64 "$root/build/tests" core2duo:scalar Nehalem:sse42 SandyBridge:sse42 Haswell:avx2 -- qemu-x86_64
+    emulate x86-64 "$root/build/tests" core2duo:scalar Nehalem:sse42:all SandyBridge:sse42 Haswell:avx2:all -- qemu-x86_64
   fi
 }
