@@ -1,19 +1,22 @@
 # shellcheck shell=bash disable=SC2154  # root, jobs and the counts are run.sh's
 # Libraries that CMake's options leave parts out of: what they hold gives the same maps, the rest is refused.
 
-# smaller NAME OPTION...: builds the program on a library with these CMake options.
+# smaller NAME OPTION...: builds a library with these CMake options, and links the objects of the whole library's program with
+# it: no option changes what a program compiles.
 smaller() {
-  local name=$1
+  local name=$1 host=${whole%/*}
   shift
-  expect "$name, build" build "$root" "$out/$name" bsm_program -DCMAKE_BUILD_TYPE=Release -DBSM_WERROR=ON \
-    -DBSM_BUILD_TESTS=OFF -DBSM_BUILD_BENCH=OFF "$@"
+  expect "$name, build" build "$root" "$out/$name" bsm -DCMAKE_BUILD_TYPE=Release -DBSM_WERROR=ON -DBSM_BUILD_TESTS=OFF \
+    -DBSM_BUILD_BENCH=OFF -DBSM_BUILD_PROGRAM=OFF "$@" &&
+    expect "$name, program" "${CXX:-c++}" "$host"/CMakeFiles/bsm_program.dir/*.o "$host/libbsm_host.a" "$out/$name/core/libbsm.a" \
+      -pthread -o "$out/$name/bsm"
 }
 
 # same_map NAME MATCH_OPTION...: its program writes the map that the whole library's writes.
 same_map() {
   local name=$1
   shift
-  "$out/$name/platform/host/bsm" match "$out/left.pgm" "$out/right.pgm" -o "$out/smaller.pgm" --disparities 32 "$@" &&
+  "$out/$name/bsm" match "$out/left.pgm" "$out/right.pgm" -o "$out/smaller.pgm" --disparities 32 "$@" &&
     "$whole" match "$out/left.pgm" "$out/right.pgm" -o "$out/whole.pgm" --disparities 32 "$@" &&
     cmp "$out/smaller.pgm" "$out/whole.pgm"
 }
@@ -23,7 +26,7 @@ same() { expect "$1, the same map: ${*:2}" same_map "$@"; }
 refused() {
   local name=$1 text=$2
   shift 2
-  expect "$name, refused: $*" refuses "$text" "$out/$name/platform/host/bsm" match "$out/left.ppm" "$out/right.ppm" \
+  expect "$name, refused: $*" refuses "$text" "$out/$name/bsm" match "$out/left.ppm" "$out/right.ppm" \
     -o "$out/refused.pgm" --disparities 32 "$@"
 }
 
