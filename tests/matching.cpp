@@ -178,15 +178,15 @@ std::vector<uint32_t> isa_masks() {
 }
 
 std::string best_isa(uint32_t isa_mask) {
-  const uint32_t features = bsm_cpu_features() & isa_mask;
-  const Kernels kernels = select_kernels(features);
+  uint32_t features = bsm_cpu_features() & isa_mask;
+  if ((features & kCpuSveShort) != 0) features &= ~uint32_t{kCpuSve};
   uint32_t most = 0;
   std::string best;
   // Features of a better instruction set are higher bits.
-#define BSM_KERNEL(stage, operation, isa, required, block)                                \
-  if (kernels.stage##_##operation == stage##_##operation##_##isa && (required) >= most) { \
-    most = (required);                                                                    \
-    best = #isa;                                                                          \
+#define BSM_KERNEL(stage, operation, isa, required, block)   \
+  if (((required) & ~features) == 0 && (required) >= most) { \
+    most = (required);                                       \
+    best = #isa;                                             \
   }
 #include "simd/kernels.def"
 #undef BSM_KERNEL

@@ -189,8 +189,8 @@ TEST_CASE(pictures) {
   check_run(checked, kOk);
   const std::string scaled = work.read("scaled.pgm").substr(13);
   REQUIRE_EQ(scaled.size(), size_t{kWidth} * kHeight);
-  const double valid = 100.0 * static_cast<double>(scaled.size() - std::count(scaled.begin(), scaled.end(), '\0')) /
-                       static_cast<double>(scaled.size());
+  const auto invalid = static_cast<double>(std::count(scaled.begin(), scaled.end(), '\0'));
+  const double valid = 100.0 * (static_cast<double>(scaled.size()) - invalid) / static_cast<double>(scaled.size());
   CHECK(valid > 0 && valid < 100);
   CHECK(checked.out.find("agree on " + bsm::host::text("%.1f %%", valid)) != std::string::npos);
   const bsm::host::Image8 gray = decode_png(work.read("gray.png")), color = decode_png(work.read("color.png"));
