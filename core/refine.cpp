@@ -48,6 +48,9 @@ Window window_around(const bsm_context& context, View view, const Ring& ring, in
 constexpr uint32_t kOwnBonus = 512;  // two full weights of the weighted median
 // A level that the refinement has moved speaks for its neighbourhood and weighs more than one measured at a single pixel.
 constexpr int32_t kKeptFraction = 12;  // sixteenths by which a sub-pixel level may differ from the final whole one
+// Sums lean to whole levels, whose paths pay no penalty: a mean of fractions that is this many sixteenths from the nearest
+// whole level stands for so many. A single sixteenth may be noise.
+constexpr uint8_t kSpread[] = {0, 1, 4, 5, 6, 7, 8, 8, 8};
 
 // Row y of the dense map of whole levels, after the optional 3x3 median.
 void take_dense_row(const bsm_context& context, View view, int32_t y, uint16_t* out) {
@@ -77,6 +80,15 @@ void smooth_fractions(const bsm_context& context, View view, const Ring& ring, i
   args.out = out;
   args.scratch = job + context.plan.job.kernel;
   context.kernels.fraction_smooth(args);
+}
+
+// Moves fractions away from whole levels. Stays within the levels searched: none lies below the first or above the last.
+void spread_fractions(int32_t width, uint16_t* levels) {
+  for (int32_t x = 0; x < width; ++x) {
+    const int32_t whole = whole_level(levels[x]) << kLevelShift;
+    const int32_t fraction = levels[x] - whole;
+    levels[x] = static_cast<uint16_t>(fraction < 0 ? whole - kSpread[-fraction] : whole + kSpread[fraction]);
+  }
 }
 
 }  // namespace
@@ -180,7 +192,9 @@ void restore_row(const bsm_context& context, View view, int32_t y) {
 
 void smooth_fraction_row(const bsm_context& context, View view, int32_t y, uint8_t* job) {
   const Plan& plan = context.plan;
-  smooth_fractions(context, view, plan.fraction[view], y, ring_row<uint16_t>(context, plan.fraction_once[view], y), job);
+  uint16_t* once = ring_row<uint16_t>(context, plan.fraction_once[view], y);
+  smooth_fractions(context, view, plan.fraction[view], y, once, job);
+  spread_fractions(context.config.width, once);
 }
 
 void write_row(const bsm_context& context, View view, int32_t y, int16_t* out, uint8_t* job) {

@@ -185,15 +185,25 @@ ModelLevels fractions_smoothed(const ModelLevels& levels, const std::vector<int>
   return result;
 }
 
+// Fractions away from whole levels: by sixteenths below and above the nearest whole one, -8 to 7.
+ModelLevels fractions_spread(ModelLevels levels) {
+  constexpr int kSpread[] = {-8, -8, -8, -7, -6, -5, -4, -1, 0, 1, 4, 5, 6, 7, 8, 8};
+  for (auto& level : levels) {
+    const int whole = static_cast<int>(std::floor((level + 8) / 16.0));
+    level = 16 * whole + kSpread[level - 16 * whole + 8];
+  }
+  return levels;
+}
+
 // Pixels whose level in the sparse map is within 12 sixteenths of the dense one get it back; all others weigh double in two
-// passes of smoothing.
+// passes of smoothing, between which the fractions are spread.
 ModelLevels with_fractions(const ModelLevels& dense, const ModelLevels& sparse, const ModelView& view) {
   ModelLevels levels = dense;
   std::vector<int> weights(dense.size(), 2);
   for (size_t i = 0; i < dense.size(); ++i) {
     if (model_valid(sparse[i]) && std::abs(sparse[i] - dense[i]) <= 12) levels[i] = sparse[i], weights[i] = 1;
   }
-  return fractions_smoothed(fractions_smoothed(levels, weights, view), weights, view);
+  return fractions_smoothed(fractions_spread(fractions_smoothed(levels, weights, view)), weights, view);
 }
 
 // `sparse` is the checked map without speckles and with the border continued.

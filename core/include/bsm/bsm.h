@@ -198,7 +198,8 @@ typedef struct bsm_config {
   int32_t right_costs;    /* bsm_right_costs */
   int32_t subpixel; /* 1: a fraction from the sums around the winner. Vote and medians work on whole levels; in the end a
                        pixel that they left within 12/16 of its own sub-pixel level gets that level back, and two passes of
-                       a 5 x 5 mean over the same surface smooth the fractions */
+                       a 5 x 5 mean over the same surface smooth the fractions, which lean to whole pixels and are spread
+                       between the passes */
 
   /* Check and refinement. */
   int32_t lr_tolerance;  /* left/right check: largest difference that still agrees, in pixels, 0..255 */
