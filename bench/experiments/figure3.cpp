@@ -24,8 +24,11 @@ struct Matcher {
 std::vector<Matcher> matchers(const Study& study) {
   const int32_t bits = study.options().quick ? 1024 : BSM_MAX_BITS;
   const Configuration local = local_configuration(bits);
-  const bsm_config balanced = preset_configuration(BSM_PRESET_BALANCED).config;
-  std::vector<Matcher> list = {{local.name, false, local.config}, {describe(balanced), false, balanced}};
+  std::vector<Matcher> list = {{local.name, false, local.config}};
+  for (const bsm_preset preset : {BSM_PRESET_LOCAL, BSM_PRESET_FAST, BSM_PRESET_BALANCED}) {
+    const bsm_config config = preset_configuration(preset).config;
+    list.push_back({describe(config), false, config});
+  }
   if (opencv_available()) list.push_back({"StereoSGBM", true, {}});
   return list;
 }
