@@ -40,7 +40,7 @@ int kernels_command(int argc, char** argv) {
       kKernels, "bsm_bench kernels [options]",
       "Times every kernel that this machine can run on one row of a made-up scene: nanoseconds and cycles\n"
       "per pixel or per pixel and disparity, bits per cycle, the ratio to the scalar kernel measured beside\n"
-      "it, and the share of a bound: the operations that the stage needs at the instruction set's throughput.");
+      "it, and the share of a bound: the operations that the stage needs at the throughput of a known core.");
   options.word("--isa", "NAME", &bench.isa, "kernels of this instruction set alone: all, scalar, or as kernels are named");
   options.word("--filter", "TEXT", &bench.filter, "kernels whose name holds TEXT");
   options.integer("--width", "W", &bench.width, 1, BSM_MAX_SIZE, "pixels of the row");

@@ -237,7 +237,9 @@ void print_text(const KernelBench& bench, const Table& table, double cycle, size
       "candidates for match and cost, all levels for aggregate and winner. bits/cycle: bits made, or counted under masks\n"
       "(match: of both views), in a core cycle, as if nothing were skipped; x scalar: times as fast as scalar; bound: "
       "cycles\n"
-      "at least, by the count of operations in kernel_bounds.cpp; max/min: of the samples.\n\n");
+      "at least on the core that kernel_bounds.cpp names (x86: Ice Lake to Sapphire Rapids), by its count of operations; a "
+      "wider\n"
+      "core may pass 100 %%; max/min: of the samples.\n\n");
   std::fputs(to_text(table).c_str(), stdout);
   if (noisy > 0) {
     std::printf("\nNote: %zu of %zu kernels have samples more than %.0f times apart; the machine is busy.\n", noisy,
