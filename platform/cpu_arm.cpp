@@ -5,7 +5,6 @@
 #if BSM_ARCH_NEON && defined(__linux__)
 // Of the C library, declared here to include none of its headers.
 extern "C" unsigned long getauxval(unsigned long type);
-extern "C" int prctl(int option, ...);
 #endif
 
 namespace bsm {
@@ -68,6 +67,16 @@ constexpr uint32_t compiled_features() {
   return features;
 }
 
+#if BSM_ARCH_NEON && defined(__linux__) && defined(__aarch64__)
+// Asks Linux itself, prctl(PR_SVE_GET_VL), for the bytes of an SVE vector, which are the lowest 16 bits. There must be SVE.
+uint32_t sve_vector_bytes() {
+  register long call asm("x8") = 167;
+  register long result asm("x0") = 51;
+  asm volatile("svc #0" : "+r"(result) : "r"(call) : "memory");
+  return static_cast<uint32_t>(result) & 0xffffu;
+}
+#endif
+
 }  // namespace
 
 uint32_t cpu_features() {
@@ -77,8 +86,7 @@ uint32_t cpu_features() {
   constexpr unsigned long kHwcap2 = 26;
   ArmCapabilities capabilities{getauxval(kHwcap), getauxval(kHwcap2), 0};
 #if defined(__aarch64__)
-  constexpr int kSveGetLength = 51;  // bytes in the lowest 16 bits
-  if ((capabilities.hwcap & kSve64) != 0) capabilities.sve_bytes = static_cast<uint32_t>(prctl(kSveGetLength)) & 0xffffu;
+  if ((capabilities.hwcap & kSve64) != 0) capabilities.sve_bytes = sve_vector_bytes();
   features = arm64_features(capabilities);
 #else
   features = arm32_features(capabilities);

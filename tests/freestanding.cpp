@@ -12,9 +12,6 @@ asm(".globl _start\n_start: bl run_freestanding\n mov w8, #93\n svc #0");
 extern "C" unsigned long getauxval(unsigned long) {
   return 0;
 }
-extern "C" int prctl(int, ...) {
-  return 0;
-}
 #else
 #error "there is no entry point for this processor"
 #endif

@@ -59,7 +59,7 @@ prove_symbols() {
   allowed+='|__(u?(div|mod)|u?divmod|mul|ashl|ashr|lshr|neg|u?cmp|popcount|clz|ctz|bswap|parity|ffs)[sdt]i[234]?' # integer helpers
   allowed+='|__gnu_thumb1_case_[us](qi|hi|si)' # switches on ARMv6-M
   allowed+='|__aeabi_(u?idiv(mod)?|u?ldivmod|lmul|llsl|llsr|lasr|u?lcmp|mem(cpy|move|set|clr)[48]?)'
-  allowed+='|getauxval|prctl' # the capabilities of an ARM processor and SVE's length, which Linux and Android report
+  allowed+='|getauxval' # the capabilities of an ARM processor, which Linux and Android report
   allowed+='|(__)?bzero|memset_pattern16' # what clang makes of memset for Apple's systems
   allowed+='|__mem(cpy|move|set)_chk|__stack_chk_(fail|guard)|_GLOBAL_OFFSET_TABLE_)$' # what distributions add
   local defined undefined foreign own=
