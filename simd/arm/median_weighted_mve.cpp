@@ -17,20 +17,27 @@ constexpr int32_t kLanes = 16;
 constexpr int32_t kMostSide = 2 * kMaxMedianRadius + 1;
 constexpr int32_t kMostTaps = (kMostSide * kMostSide + 1) / 2;
 constexpr uint32_t kMostExponent = 127;
+constexpr uint32_t kExponents = kMostExponent + 1;
 
 struct Scratch {
   uint8_t weights[kMostTaps][kLanes];
-  uint8_t color_steps[256];                  // exponents by colour difference, at most 127
-  uint8_t weight_of[2 * kMostExponent + 1];  // weights by the sum of two exponents
+  uint8_t color_steps[256];           // exponents by colour difference, at most 127
+  uint8_t weight_of[2 * kExponents];  // weights by the sum of two exponents
 };
 
+// color_scale is below 2^16 (smooth_color_scale), so that the upper half of a product by 256 i is the exponent.
 void prepare(const MedianWeightedArgs& args, Scratch& scratch) {
-  for (uint32_t i = 0; i < sizeof scratch.weight_of; ++i) {
-    scratch.weight_of[i] = args.weights[i < kMostExponent ? i : kMostExponent];
+  const uint8x16_t last = vdupq_n_u8(args.weights[kMostExponent]);
+  for (uint32_t i = 0; i < kExponents; i += 16) {
+    vstrbq_u8(scratch.weight_of + i, vldrbq_u8(args.weights + i));
+    vstrbq_u8(scratch.weight_of + kExponents + i, last);
   }
-  for (uint32_t i = 0; i < sizeof scratch.color_steps; ++i) {
-    const uint32_t steps = i * args.color_scale >> 8;
-    scratch.color_steps[i] = static_cast<uint8_t>(steps < kMostExponent ? steps : kMostExponent);
+  const uint16x8_t scale = vdupq_n_u16(static_cast<uint16_t>(args.color_scale));
+  const uint16x8_t most = vdupq_n_u16(kMostExponent);
+  uint16x8_t difference = places(256);
+  for (uint32_t i = 0; i < sizeof scratch.color_steps; i += 8) {
+    vstrbq_u16(scratch.color_steps + i, vminq_u16(vmulhq_u16(difference, scale), most));
+    difference = vaddq_n_u16(difference, 8 * 256);
   }
 }
 
@@ -41,7 +48,8 @@ inline void for_taps(const MedianWeightedArgs& args, int32_t x, const Function& 
   int32_t i = 0;
   for (int32_t row = 0; row <= 2 * radius; ++row) {
     if (args.levels[row] == nullptr) continue;
-    for (int32_t dx = -radius + (row & 1); dx <= radius; dx += 2) function(row, x + dx, dx < 0 ? -dx : dx, i++);
+    int32_t dx = -radius + (row & 1);
+    for (int32_t taps = radius + 1 - (row & 1); taps != 0; --taps, dx += 2) function(row, x + dx, dx < 0 ? -dx : dx, i++);
   }
 }
 
