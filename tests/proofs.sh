@@ -25,9 +25,13 @@ sources() {
   fi
 }
 
-# Prints a file without comments, one line for each of its lines. Text in quotes stays, so that an include keeps its path.
+# Prints all of the library's text without comments, line by line as file:number:text. Text in quotes stays, so that an include
+# keeps its path.
 without_comments() {
-  awk '
+  # shellcheck disable=SC2016  # $0 is awk's
+  (cd "$root" && sources all | sed "s|^$root/||" | xargs awk '
+    FNR == 1 { in_comment = 0 }
+    !in_comment && !/["\047\/]/ { print FILENAME ":" FNR ":" $0; next }
     {
       line = $0; out = ""; i = 1; n = length(line); quote = ""
       while (i <= n) {
@@ -48,8 +52,8 @@ without_comments() {
           out = out c; i++
         }
       }
-      print out
-    }' "$1"
+      print FILENAME ":" FNR ":" out
+    }')
 }
 
 # Undefined symbols of the whole archive that it does not define itself.
@@ -102,13 +106,10 @@ prove_sections() {
 }
 
 prove_float() {
-  local file found
+  local found
   # Names of types, and literals such as 1.5, .5, 1e3, 2.0f; hexadecimal integers such as 0x1e5 are none.
-  found=$(while read -r file; do
-    without_comments "$file" | sed 's/"[^"]*"//g' |
-      grep -nE '(^|[^A-Za-z0-9_])(float|double|_Float16|__fp16|float(16|32|64)_t)([^A-Za-z0-9_]|$)|(^|[^A-Za-z0-9_.])([0-9]+\.[0-9]*|\.[0-9]+|[0-9]+[eE][-+]?[0-9]+)' |
-      sed "s|^|${file#"$root"/}:|"
-  done < <(sources all))
+  found=$(without_comments | sed 's/"[^"]*"//g' |
+    grep -E '(^|[^A-Za-z0-9_])(float|double|_Float16|__fp16|float(16|32|64)_t)([^A-Za-z0-9_]|$)|(^|[^A-Za-z0-9_.])([0-9]+\.[0-9]*|\.[0-9]+|[0-9]+[eE][-+]?[0-9]+)')
   [ -z "$found" ] || fail "floating point in the text of the library:
 $found"
   echo "no floating point in $(sources all | wc -l) files of core/ and simd/"
@@ -117,31 +118,29 @@ $found"
 # core/ may include the two C headers, its own headers, the contract in simd/ and the facts in platform/; simd/ the same without
 # core/, and intrinsics in the folders of one instruction set.
 prove_includes() {
-  local found=0 file line name where
-  while read -r file; do
-    where=${file#"$root"/}
-    while read -r line; do
-      name=$(echo "$line" | sed -E 's/^[[:space:]]*#[[:space:]]*include[[:space:]]*//; s/[[:space:]]*$//')
-      case $where:$name in
-        *:"<stdint.h>" | *:"<stddef.h>") continue ;;
-        simd/*/*:"<immintrin.h>" | simd/*/*:"<nmmintrin.h>" | simd/*/*:"<arm_neon.h>" | simd/*/*:"<arm_sve.h>") continue ;;
-        simd/*/*:"<arm_acle.h>" | simd/*/*:"<arm_mve.h>" | simd/*/*:"<wasm_simd128.h>") continue ;;
-        core/include/*:'"bsm/'*) [ -f "$root/core/include/$(echo "$name" | tr -d '"')" ] && continue ;;
-        *:'"bsm/bsm.h"') continue ;;
-        core/*:'"core/'*.h\" | core/*:'"simd/'*.h\" | simd/*:'"simd/'*.h\" | simd/*:'"simd/'*.def\")
-          if [ -f "$root/$(echo "$name" | tr -d '"')" ]; then
-            case $where:$name in
-              core/*:'"simd/'*/*) ;; # never a file of one instruction set
-              *) continue ;;
-            esac
-          fi
-          ;;
-        *:'"platform/compiler.h"' | *:'"platform/cpu.h"') continue ;;
-      esac
-      echo "$where: #include $name"
-      found=1
-    done < <(without_comments "$file" | grep -E '^[[:space:]]*#[[:space:]]*include')
-  done < <(sources all)
+  local found=0 where name
+  while IFS=: read -r where _ name; do
+    name=${name#*include}
+    name=${name//[[:space:]]/}
+    case $where:$name in
+      *:"<stdint.h>" | *:"<stddef.h>") continue ;;
+      simd/*/*:"<immintrin.h>" | simd/*/*:"<nmmintrin.h>" | simd/*/*:"<arm_neon.h>" | simd/*/*:"<arm_sve.h>") continue ;;
+      simd/*/*:"<arm_acle.h>" | simd/*/*:"<arm_mve.h>" | simd/*/*:"<wasm_simd128.h>") continue ;;
+      core/include/*:'"bsm/'*) [ -f "$root/core/include/${name//\"/}" ] && continue ;;
+      *:'"bsm/bsm.h"') continue ;;
+      core/*:'"core/'*.h\" | core/*:'"simd/'*.h\" | simd/*:'"simd/'*.h\" | simd/*:'"simd/'*.def\")
+        if [ -f "$root/${name//\"/}" ]; then
+          case $where:$name in
+            core/*:'"simd/'*/*) ;; # never a file of one instruction set
+            *) continue ;;
+          esac
+        fi
+        ;;
+      *:'"platform/compiler.h"' | *:'"platform/cpu.h"') continue ;;
+    esac
+    echo "$where: #include $name"
+    found=1
+  done < <(without_comments | grep -E '^[^:]*:[0-9]*:[[:space:]]*#[[:space:]]*include')
   [ "$found" = 0 ] || fail "includes that the layering does not allow"
   echo "core/ and simd/ include only <stdint.h>, <stddef.h>, intrinsics and their own headers"
 }
