@@ -130,13 +130,22 @@ add_ctest_row() {
   grep -q ' test_targets ' "$2" && add_target_row "$1" "$(uname -m), this one" "$result" "$(cat "$3")"
 }
 
+# configure SOURCE FOLDER OPTION...: by Ninja where it is there, which starts fewer processes than make; a folder stays with the
+# one that it has.
+configure() {
+  local source=$1 folder=$2 generator=()
+  shift 2
+  [ -e "$folder/CMakeCache.txt" ] || ! have_tool ninja || generator=(-G Ninja)
+  cmake ${generator[@]+"${generator[@]}"} -S "$source" -B "$folder" "$@"
+}
+
 # run_suite NAME FOLDER CTEST_PATTERN CMAKE_OPTION...; the variable `targets` of the caller names what to build, if not everything.
 run_suite() {
   local suite=$1 build=$root/build/$2 pattern=$3 before=$((passed + ${#failed[@]} + ${#skipped[@]}))
   shift 3
   mkdir -p "$build"
   echo "== $suite: building in $build"
-  if ! { cmake -S "$root" -B "$build" -DBSM_BUILD_TESTS=ON -DBSM_BUILD_PROGRAM=ON -DBSM_WERROR=ON "$@" &&
+  if ! { configure "$root" "$build" -DBSM_BUILD_TESTS=ON -DBSM_BUILD_PROGRAM=ON -DBSM_WERROR=ON "$@" &&
     cmake --build "$build" --parallel "$jobs" ${targets:+--target $targets}; } > "$build/build.log" 2>&1; then
     cat "$build/build.log"
     failed+=("$suite build (the output is above and in $build/build.log)")
@@ -151,6 +160,10 @@ run_suite() {
   fi
   [ $((passed + ${#failed[@]} + ${#skipped[@]})) -gt "$before" ] || failed+=("$suite: ctest ran nothing")
 }
+
+# For builds that do not test kernels: as with a compiler that has none of those that take it longest.
+# shellcheck disable=SC2034  # suites'
+no_wide_vectors=(-DBSM_COMPILES_X86_AVX2=OFF -DBSM_COMPILES_X86_AVX512=OFF)
 
 # True when a one-line program links with the given compiler and options.
 links() {
@@ -190,7 +203,7 @@ build() {
   local source=$1 folder=$2 targets=$3
   shift 3
   # shellcheck disable=SC2086  # targets are words of their own
-  cmake -S "$source" -B "$folder" "$@" && cmake --build "$folder" --parallel "$jobs" --target $targets
+  configure "$source" "$folder" "$@" && cmake --build "$folder" --parallel "$jobs" --target $targets
 }
 
 # gray_pair FOLDER: left.pgm and right.pgm of the demo's left.ppm and right.ppm. Their green stands for gray, as in golden.inc.

@@ -41,12 +41,12 @@ wait_for() {
 
 # The part "tools" installs at once what all suites need; where that fails, each suite finds out what it lacks.
 run_tools() {
-  local part words=()
+  local part words=(ninja)
   while IFS= read -r part; do
     # shellcheck disable=SC2207  # names of programs
     words+=($(tools_of "$part"))
   done < "$BSM_PARTS/parts"
-  [ ${#words[@]} -eq 0 ] || require_tools "${words[@]}" > /dev/null 2>&1 || true
+  require_tools "${words[@]}" > /dev/null 2>&1 || true
 }
 
 # results: what this process counted, as shell text that adds it to another's counts.

@@ -11,7 +11,7 @@ cross() {
   fi
   echo "== $suite: building in $build"
   mkdir -p "$build"
-  if ! { cmake -S "$root" -B "$build" "-DCMAKE_TOOLCHAIN_FILE=$root/toolchains/$triple.cmake" -DCMAKE_BUILD_TYPE=Release \
+  if ! { configure "$root" "$build" "-DCMAKE_TOOLCHAIN_FILE=$root/toolchains/$triple.cmake" -DCMAKE_BUILD_TYPE=Release \
     -DBSM_WERROR=ON -DBSM_BUILD_BENCH=ON && cmake --build "$build" --parallel "$jobs" --target test_kernels test_golden test_targets; } \
     > "$build/build.log" 2>&1; then
     cat "$build/build.log"

@@ -53,13 +53,13 @@ run_options() {
     same local --preset paper --bits 64 --stage cost --isa scalar
     refused local "the method is unknown or was not built" --preset fast
   fi
-  if smaller checked -DBSM_REFINEMENT=OFF -DBSM_CONFIDENCE=OFF; then
+  if smaller checked "${no_wide_vectors[@]}" -DBSM_REFINEMENT=OFF -DBSM_CONFIDENCE=OFF; then
     same checked --preset balanced --stage checked
     same checked --preset paper --bits 256 --stage checked --isa scalar
     refused checked "the stage is unknown" --preset fast
     refused checked "confidence is neither 0 nor 1, or was not built" --stage checked --confidence-out "$out/refused-confidence.pgm"
   fi
-  if smaller silent -DBSM_TEXT=OFF; then
+  if smaller silent "${no_wide_vectors[@]}" -DBSM_TEXT=OFF; then
     same silent --preset fast
     refused silent "--bits: -9" --preset fast --bits 2048
   fi
