@@ -146,28 +146,31 @@ double bound_cycles(const Core& core, const MatchHammingArgs& args) {
   return cycles(core, count * (words / 2 * Effort{1 + 2 * 3, 2, 0, 0} + 0.25 * winners));
 }
 
-// The same under one view's mask, every cost written. AVX-512: a lane for each of eight candidates, whose sums one move puts
-// into 16 bits and in order. AVX2: of 16 candidates, 8 vectors of counts are packed to one by 7 moves and added in pairs by
-// 1; 128 bits need two such groups of 8 and 2 moves to put candidates in order, 256 bits twice that and 2 more. Other
-// lengths take four candidates at once as in match_hamming, below four words without carry-save additions, and 3 operations
-// to put their sums into 16 bits and in order.
+// The same under one view's mask, every cost written. SSE4.2: four costs of up to 192 bits to one word by 6 operations.
+// AVX-512: a lane for each of eight candidates, whose sums one move puts into 16 bits and in order. AVX2: every 8 vectors of
+// counts of 16 candidates are packed to one by 7 moves and added in pairs by 1, 4 vectors of 64 bits packed by 3 moves; in
+// the mean of both views 5 operations bring the 16 costs in order, 2 those of 64 bits. Other lengths take four candidates at
+// once as in match_hamming, below four words without carry-save additions, and 3 operations to put their sums into 16 bits
+// and in order.
 double bound_cycles(const Core& core, const CostHammingArgs& args) {
   const double count = candidates(args.width, args.num_disparities);
   const double words = args.bits / 64.0;
   const Core& scalar = kCores[0];
   if (is(core, "scalar")) return cycles(core, count * (words * Effort{15, 1, 0, 0} + Effort{1, 0, 1, 0}));
   const double loads = args.bits <= 256 ? 1 : 3;  // longer descriptors and masks do not stay in registers
-  if (is(core, "sse42")) return cycles(scalar, count * (words * Effort{4, loads, 0, 1} + Effort{1, 0, 1, 0}));
+  if (is(core, "sse42")) {
+    const Effort written = args.bits <= 192 ? Effort{6 / 4.0, 0, 1 / 4.0, 0} : Effort{0, 0, 1, 0};
+    return cycles(scalar, count * (words * Effort{4, loads, 0, 1} + Effort{-1, 0, 0, 0} + written));
+  }
   const double vectors = 8.0 * args.bits / core.bytes / 64.0;  // of a candidate
   const double per_store = lanes(core, 2);
   if (is(core, "avx512")) return cycles(core, count / 8 * (words * Effort{3, 1, 0, 1} + Effort{1 - 1, 0, 1, 1}));
   if (is(core, "avx2")) {
-    if (args.bits == 64 || args.bits == 192)
-      return cycles(core, count / 4 * (words * Effort{9, 3, 0, 0} + Effort{3, 0, 1, 0}));
-    if (args.bits != 128 && args.bits != 256)
+    if (args.bits == 192) return cycles(core, count / 4 * (words * Effort{9, 3, 0, 0} + Effort{3, 0, 1, 0}));
+    if (args.bits > 256)
       return cycles(core, count / 4 * (words / 4 * Effort{8 + 3 * 5 + 7, 12, 0, 0} + Effort{18 + 3, 0, 1, 0}));
-    const double groups = args.bits / 128.0;
-    return cycles(core, count / per_store * (per_store * vectors * Effort{9, 1, 0, 0} + Effort{8 * groups + 5, 0, 1, 0}));
+    const double packed = args.bits == 64 ? 3 + 2 : 8 * args.bits / 128.0 + 5;
+    return cycles(core, count / per_store * (per_store * vectors * Effort{9, 1, 0, 0} + Effort{packed, 0, 1, 0}));
   }
   return cycles(core, count / per_store * (per_store * vectors * Effort{4, 1, 0, 0} + Effort{8, 0, 1, 0}));
 }

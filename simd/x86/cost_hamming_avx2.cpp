@@ -1,10 +1,10 @@
-// cost_hamming, AVX2, POPCNT: descriptors of 128 and 256 bits take 16 candidates at once, neighbours in the other view's
+// cost_hamming, AVX2, POPCNT: descriptors of 64, 128 and 256 bits take 16 candidates at once, neighbours in the other view's
 // row, and go by 64-bit words at the ends of the row. Set bits are looked up by half bytes. Bound, per 256 bits of
-// candidates: 1 load, 9 operations; 13 to add up 16 candidates.
+// candidates: 1 load, 9 operations; to add up 16 candidates 5 for 64 bits, 13 for 128, 21 for 256.
 // Other lengths take four pixels of the other view against own pixels one after the other, as in match_hamming. Bound for
 // four candidates: by word 9, the first addition of which is none, once 1 to sum bytes; above 256 bits by four words 8, 3
-// carry-save additions of 5, a count of 6, an addition, once 18; and 3 to 16 bits. Three ports do them: 4 cycles for 64
-// bits, 10 for 192, 27 for 512.
+// carry-save additions of 5, a count of 6, an addition, once 18; and 3 to 16 bits. Three ports do them: 10 cycles for 192
+// bits, 27 for 512.
 #include "platform/compiler.h"
 
 #if BSM_ARCH_X86_64
@@ -25,7 +25,7 @@ struct Own {
 
 template <int32_t kWords>
 inline Bytes repeat(const uint8_t* from) {
-  return kWords == 2 ? table16(from) : load(from);
+  return kWords == 1 ? every_word(from) : kWords == 2 ? table16(from) : load(from);
 }
 
 // Set bits of each 64-bit word of a register of candidates that differ under the mask.
@@ -52,6 +52,11 @@ inline Bytes count_eight(const Own& own, const uint8_t* other) {
 // Costs of 16 candidates in the order of memory.
 template <int32_t kWords>
 inline Bytes count_sixteen(const Own& own, const uint8_t* other) {
+  if constexpr (kWords == 1) {  // four neighbours a register, two in each lane
+    const Bytes first = _mm256_packus_epi32(count_register(own, other), count_register(own, other + 32));
+    const Bytes second = _mm256_packus_epi32(count_register(own, other + 64), count_register(own, other + 96));
+    return _mm256_permutevar8x32_epi32(_mm256_packus_epi32(first, second), _mm256_setr_epi32(0, 4, 1, 5, 2, 6, 3, 7));
+  }
   const Bytes a = count_eight(own, other);
   if (kWords == 2) {  // even candidates in one lane, odd ones in the other
     const __m128i even = _mm256_castsi256_si128(a);
@@ -68,7 +73,7 @@ inline Bytes reverse(Bytes a) {
   return _mm256_permute2x128_si256(lanes, lanes, 1);
 }
 
-// kWords: 2 or 4.
+// kWords: 1, 2 or 4.
 template <int32_t kWords>
 void count_row(const CostHammingArgs& row) {
   const CostHammingArgs args = row;  // a copy, which the costs written cannot change
@@ -177,6 +182,7 @@ uint64_t cost_hamming_avx2_scratch(const KernelShape& shape) {
 }
 
 void cost_hamming_avx2(const CostHammingArgs& args) {
+  if (args.bits == 64) return count_row<1>(args);
   if (args.bits == 128) return count_row<2>(args);
   if (args.bits == 256) return count_row<4>(args);
   if (args.own_mask == nullptr) return count_blocks<false, 0>(args);  // for studies: any length alike

@@ -7,7 +7,7 @@
 namespace bsm {
 namespace {
 
-// A row, a candidate at a time. kWords as in count_words.
+// A row. kWords as in count_words.
 template <int32_t kWords>
 void count_row(const CostHammingArgs& row) {
   const CostHammingArgs args = row;  // a copy, which the costs written cannot change

@@ -1,4 +1,4 @@
-// cost_hamming, POPCNT: 64-bit words, a candidate at a time.
+// cost_hamming, POPCNT: 64-bit words, four candidates at a time up to 192 bits, else one.
 #include "platform/compiler.h"
 
 #if BSM_ARCH_X86_64

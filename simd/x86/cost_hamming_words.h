@@ -1,6 +1,6 @@
 // Masked counts of candidates in 64-bit words, for the cost kernels of x86 with POPCNT and of WebAssembly.
 // Short descriptors stay in registers while the candidates pass. Bound, per word of a candidate: 1 XOR, 1 AND, 1 population
-// count, 1 addition; 1 load.
+// count, 1 addition; 1 load. Up to three words, four costs are stored at once: 6 more.
 #ifndef BSM_SIMD_X86_COST_HAMMING_WORDS_H
 #define BSM_SIMD_X86_COST_HAMMING_WORDS_H
 
@@ -20,24 +20,42 @@ struct Candidates {
   int32_t first, last;
 };
 
+// A descriptor and its mask in registers.
 template <int32_t kWords>
-inline void count_short(const uint8_t* own, const uint8_t* mask, const Candidates& candidates, uint16_t* costs) {
-  uint64_t bits[kWords];
-  uint64_t kept[kWords];
-  BSM_UNROLL
-  for (int32_t i = 0; i < kWords; ++i) {
-    bits[i] = load_word(own + 8 * i);
-    kept[i] = mask == nullptr ? ~uint64_t{0} : load_word(mask + 8 * i);
+struct ShortPixel {
+  uint64_t bits[kWords], kept[kWords];
+
+  ShortPixel(const uint8_t* own, const uint8_t* mask) {
+    BSM_UNROLL
+    for (int32_t i = 0; i < kWords; ++i) {
+      bits[i] = load_word(own + 8 * i);
+      kept[i] = mask == nullptr ? ~uint64_t{0} : load_word(mask + 8 * i);
+    }
   }
-  const uint8_t* other = candidates.other;
-  for (int32_t level = candidates.first; level <= candidates.last; ++level, other += candidates.step) {
+  uint64_t count(const uint8_t* other) const {
     uint64_t count = 0;
     BSM_UNROLL
     for (int32_t i = 0; i < kWords; ++i) {
       count += static_cast<uint64_t>(__builtin_popcountll((bits[i] ^ load_word(other + 8 * i)) & kept[i]));
     }
-    costs[level] = static_cast<uint16_t>(count);
+    return count;
   }
+};
+
+// kStep: bytes from a candidate to the next.
+template <int32_t kWords, ptrdiff_t kStep>
+inline void count_short(const uint8_t* own, const uint8_t* mask, const Candidates& candidates, uint16_t* costs) {
+  constexpr int32_t kAtOnce = kWords < 4 ? 4 : 1;  // costs of a store; more spill words to memory
+  const ShortPixel<kWords> pixel(own, mask);
+  const uint8_t* other = candidates.other;
+  int32_t level = candidates.first;
+  for (; level + kAtOnce - 1 <= candidates.last; level += kAtOnce, other += kAtOnce * kStep) {
+    uint64_t four = 0;
+    BSM_UNROLL
+    for (int32_t i = 0; i < kAtOnce; ++i) four |= pixel.count(other + i * kStep) << (16 * i);
+    BSM_MEMCPY(costs + level, &four, 2 * kAtOnce);
+  }
+  for (; level <= candidates.last; ++level, other += kStep) costs[level] = static_cast<uint16_t>(pixel.count(other));
 }
 
 inline void count_long(const uint8_t* own, const uint8_t* mask, int32_t bytes, const Candidates& candidates,
@@ -59,8 +77,10 @@ inline void count_words(const uint8_t* own, const uint8_t* mask, int32_t bytes, 
                         uint16_t* costs) {
   if constexpr (kWords == 0) {
     count_long(own, mask, bytes, candidates, costs);
+  } else if (candidates.step < 0) {
+    count_short<kWords, -8 * kWords>(own, mask, candidates, costs);
   } else {
-    count_short<kWords>(own, mask, candidates, costs);
+    count_short<kWords, 8 * kWords>(own, mask, candidates, costs);
   }
 }
 
