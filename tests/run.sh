@@ -165,6 +165,10 @@ run_suite() {
 # shellcheck disable=SC2034  # suites'
 no_wide_vectors=(-DBSM_COMPILES_X86_AVX2=OFF -DBSM_COMPILES_X86_AVX512=OFF)
 
+# Sources of the tests by several at a time, which the native suite compiles one by one.
+# shellcheck disable=SC2034  # suites'
+joined=-DCMAKE_UNITY_BUILD=ON
+
 # True when a one-line program links with the given compiler and options.
 links() {
   local dir good

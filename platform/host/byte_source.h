@@ -43,6 +43,11 @@ class ByteSource {
   std::string error_;
 };
 
+// White space between the words of a header; what get() returns.
+inline bool is_space(int c) {
+  return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
 // A stream for reading: a file, or standard input for "-". Closes what it opened.
 class InputFile {
  public:

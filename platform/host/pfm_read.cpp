@@ -14,10 +14,6 @@ namespace {
 
 constexpr size_t kMaxWord = 40;  // characters of a header number
 
-bool is_space(int c) {
-  return c == ' ' || (c >= '\t' && c <= '\r');
-}
-
 // A word of the header and the one white-space character after it. False at the end, or when a word is too long.
 bool read_word(ByteSource& source, std::string* word) {
   word->clear();

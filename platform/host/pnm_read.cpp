@@ -12,9 +12,6 @@ namespace {
 constexpr int32_t kMaxSize = BSM_MAX_SIZE;
 constexpr int32_t kMaxHeaderBytes = 1 << 16;  // comments included; stops an endless header on a pipe
 
-bool is_space(int c) {
-  return c == ' ' || (c >= '\t' && c <= '\r');
-}
 bool is_digit(int c) {
   return c >= '0' && c <= '9';
 }

@@ -14,7 +14,7 @@ run_clang() {
   # shellcheck disable=SC2034  # read by run_suite
   local targets="bsm test_kernels test_golden test_targets test_stack"
   run_suite clang clang '^(test_(kernels|golden|targets|stack)|proof_(symbols|sections|freestanding|objects))$' \
-    -DCMAKE_BUILD_TYPE=Release -DBSM_BUILD_BENCH=OFF -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++
+    -DCMAKE_BUILD_TYPE=Release -DBSM_BUILD_BENCH=OFF "$joined" -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++
 }
 
 fuzz_program='extern "C" int LLVMFuzzerTestOneInput(const unsigned char*, unsigned long) { return 0; }'

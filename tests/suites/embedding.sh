@@ -84,7 +84,7 @@ check_amalgamation() {
   elif ! require_tools aarch64-linux-gnu-g++ qemu-aarch64 > /dev/null 2>&1; then
     skipped+=("embedding amalgamation for AArch64: aarch64-linux-gnu-g++ or qemu-aarch64 is not installed and cannot be installed here")
   elif expect "amalgamation for AArch64, objects of the tests" build "$root" "$machine" test_golden \
-    "-DCMAKE_TOOLCHAIN_FILE=$root/toolchains/aarch64-linux-gnu.cmake" -DCMAKE_BUILD_TYPE=Release -DBSM_WERROR=ON -DBSM_BUILD_BENCH=OFF &&
+    "-DCMAKE_TOOLCHAIN_FILE=$root/toolchains/aarch64-linux-gnu.cmake" -DCMAKE_BUILD_TYPE=Release -DBSM_WERROR=ON -DBSM_BUILD_BENCH=OFF "$joined" &&
     expect "amalgamation for AArch64, compiles" build "$here/amalgamation" "$out/amalgamation-arm64" all "-DBUILD=$machine" \
       "-DAMALGAMATION=$native/amalgamation" "-DCMAKE_TOOLCHAIN_FILE=$root/toolchains/aarch64-linux-gnu.cmake"; then
     run_amalgamation "$out/amalgamation-arm64" "qemu-aarch64 -L /usr/aarch64-linux-gnu" neon sve
@@ -105,14 +105,15 @@ run_embedding() {
     installed_tree static "$out/static" "$version"
   fi
 
-  # A strict parent compiles bsm under its own warnings; one without any sees none of bsm's, and installs the shared library.
+  # A strict parent compiles bsm under its own warnings; one without any, which joins its sources, sees none of bsm's, and
+  # installs the shared library.
   if expect "strict parent, add_subdirectory" build "$here/parent" "$out/strict" all -DPARENT_IS_STRICT=ON; then
     expect "strict parent, its program runs" "$out/strict/consumer"
     expect "strict parent, nothing to install" cmake --install "$out/strict" --prefix "$out/nothing"
     expect "strict parent, nothing installed" is_empty_folder "$out/nothing"
   fi
   if expect "sloppy parent, FetchContent, shared" build "$here/parent" "$out/sloppy" all \
-    -DPARENT_FETCHES=ON -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=ON -DBSM_INSTALL=ON &&
+    -DPARENT_FETCHES=ON -DCMAKE_BUILD_TYPE=Release "$joined" -DBUILD_SHARED_LIBS=ON -DBSM_INSTALL=ON &&
     expect "shared, install" cmake --install "$out/sloppy" --prefix "$out/shared"; then
     if [ "$(uname -s)" = Linux ]; then
       library=$(find "$out/shared" -name libbsm.so)

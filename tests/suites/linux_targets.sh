@@ -12,7 +12,7 @@ cross() {
   echo "== $suite: building in $build"
   mkdir -p "$build"
   if ! { configure "$root" "$build" "-DCMAKE_TOOLCHAIN_FILE=$root/toolchains/$triple.cmake" -DCMAKE_BUILD_TYPE=Release \
-    -DBSM_WERROR=ON -DBSM_BUILD_BENCH=ON && cmake --build "$build" --parallel "$jobs" --target test_kernels test_golden test_targets; } \
+    -DBSM_WERROR=ON -DBSM_BUILD_BENCH=ON "$joined" && cmake --build "$build" --parallel "$jobs" --target test_kernels test_golden test_targets; } \
     > "$build/build.log" 2>&1; then
     cat "$build/build.log"
     failed+=("$suite build (the output is above and in $build/build.log)")
@@ -75,7 +75,7 @@ traps() {
   }
   expect "kernels that trap, build" build "$root" "$build" test_kernels -DCMAKE_SYSTEM_NAME=Linux \
     "-DCMAKE_SYSTEM_PROCESSOR=${triple%%-*}" -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
-    "-DCMAKE_C_COMPILER_TARGET=$triple" "-DCMAKE_CXX_COMPILER_TARGET=$triple" -DCMAKE_BUILD_TYPE=Release -DBSM_BUILD_BENCH=OFF \
+    "-DCMAKE_C_COMPILER_TARGET=$triple" "-DCMAKE_CXX_COMPILER_TARGET=$triple" -DCMAKE_BUILD_TYPE=Release -DBSM_BUILD_BENCH=OFF "$joined" \
     "-DCMAKE_CXX_FLAGS=-fsanitize=bounds,undefined -fno-sanitize=null,object-size,pointer-overflow -fsanitize-trap=all" &&
     expect "kernels trap nowhere" env BSM_TEST_EFFORT=4 "$@" "$build/tests/test_kernels"
 }

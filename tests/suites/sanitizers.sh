@@ -4,7 +4,7 @@
 
 # Little optimization and debug information: sanitized code takes long to compile, and reports name its lines.
 sanitized_build=(-DCMAKE_BUILD_TYPE=RelWithDebInfo "-DCMAKE_C_FLAGS_RELWITHDEBINFO=-O1 -g1 -DNDEBUG"
-  "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1 -DNDEBUG" -DBSM_BUILD_BENCH=OFF)
+  "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1 -DNDEBUG" -DBSM_BUILD_BENCH=OFF "$joined")
 
 run_asan() {
   local sanitizers="-fsanitize=address,undefined,alignment -fno-sanitize-recover=all -fno-omit-frame-pointer"
