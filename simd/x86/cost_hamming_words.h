@@ -45,15 +45,15 @@ struct ShortPixel {
 // kStep: bytes from a candidate to the next.
 template <int32_t kWords, ptrdiff_t kStep>
 inline void count_short(const uint8_t* own, const uint8_t* mask, const Candidates& candidates, uint16_t* costs) {
-  constexpr int32_t kAtOnce = kWords < 4 ? 4 : 1;  // costs of a store; more spill words to memory
+  constexpr int32_t kCostsStored = kWords < 4 ? 4 : 1;  // at once; four of more words would spill to memory
   const ShortPixel<kWords> pixel(own, mask);
   const uint8_t* other = candidates.other;
   int32_t level = candidates.first;
-  for (; level + kAtOnce - 1 <= candidates.last; level += kAtOnce, other += kAtOnce * kStep) {
+  for (; level + kCostsStored - 1 <= candidates.last; level += kCostsStored, other += kCostsStored * kStep) {
     uint64_t four = 0;
     BSM_UNROLL
-    for (int32_t i = 0; i < kAtOnce; ++i) four |= pixel.count(other + i * kStep) << (16 * i);
-    BSM_MEMCPY(costs + level, &four, 2 * kAtOnce);
+    for (int32_t i = 0; i < kCostsStored; ++i) four |= pixel.count(other + i * kStep) << (16 * i);
+    BSM_MEMCPY(costs + level, &four, 2 * kCostsStored);
   }
   for (; level <= candidates.last; ++level, other += kStep) costs[level] = static_cast<uint16_t>(pixel.count(other));
 }
