@@ -34,7 +34,7 @@ run_fuzz() {
     skipped+=("fuzz: clang++ does not link -fsanitize=fuzzer (Debian and Ubuntu: apt-get install $runtime)")
     return
   fi
-  run_suite fuzz fuzz '^fuzz_' -DCMAKE_BUILD_TYPE=RelWithDebInfo -DBSM_BUILD_FUZZERS=ON -DBSM_BUILD_BENCH=OFF \
+  run_suite fuzz fuzz '^fuzz_' "${sanitized_build[@]}" -DBSM_BUILD_FUZZERS=ON \
     -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ "-DCMAKE_C_FLAGS=$flags" \
     "-DCMAKE_CXX_FLAGS=$flags -fsanitize=fuzzer-no-link"
 }
