@@ -89,7 +89,7 @@ check_android() {
     -DCMAKE_CXX_FLAGS=-Werror "-DCMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES=$includes" &&
     expect "android, Java half" javac -Xlint:all -Werror --release 8 -Xlint:-options -d "$out/android/classes" "$root/platform/android/java/bsm/StereoMatcher.java" \
       "$here/android/StereoMatcherTest.java" &&
-    expect "android, frames through Java" java -ea "-Djava.library.path=$out/android" -cp "$out/android/classes" StereoMatcherTest
+    expect "android, frames through Java" env "LD_LIBRARY_PATH=$out/android" java -ea -cp "$out/android/classes" StereoMatcherTest
 }
 
 # A dry run prints each step; every library that the framework takes was joined before from archives that were built before.
