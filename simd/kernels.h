@@ -221,7 +221,7 @@ struct MedianWeightedArgs {
   int32_t radius;                 // at most kMaxMedianRadius, so that the weights of a window fit 16 bits
   uint32_t color_scale;           // exponent of a SAD c, in table steps: (min(c, 255) * color_scale) >> 8; at most 65535
   const uint8_t* distance_steps;  // exponent of the distance, in table steps: [|dy| * (radius + 1) + |dx|], each at most 127
-  const uint8_t* weights;         // 128 weights; an exponent is the sum of the two, at most 127
+  const uint8_t* weights;         // 128 weights, none above the one before; an exponent is the sum of the two, at most 127
   const uint16_t* checked;        // width levels after check and border; below kOccluded: the pixel is trusted
   uint32_t own_bonus;             // at most 512
   uint16_t* out;

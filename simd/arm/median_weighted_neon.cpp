@@ -256,24 +256,28 @@ int32_t list_taps(const MedianWeightedArgs& args, Scratch& scratch) {
   return count;
 }
 
-// True where the exponents of colours from kColors on are the last one, which weighs nothing.
+// True where colours from kColors on weigh nothing: weights fall with their exponents.
 inline bool has_short_reach(const MedianWeightedArgs& args) {
-  return args.weights[127] == 0 && (kColors * args.color_scale) >> 8 >= 127;
+  const uint32_t steps = (kColors * args.color_scale) >> 8;
+  return args.weights[steps < 127 ? steps : 127] == 0;
 }
 
-// The weights of all colours by distance.
+// The weights of all colours by distance, for the distances of taps: columns and rows away add up to an even number.
 void fill_tables(const MedianWeightedArgs& args, const Table128& table, Scratch& scratch) {
   alignas(16) static constexpr uint8_t kLane[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-  const int32_t count = (args.radius + 1) * (args.radius + 1);
   const ByExponent weigh{table, args.distance_steps, static_cast<int16_t>(args.color_scale)};
-  for (int32_t i = 0; i < count; ++i) {
-    uint8x16_t weights[kColors / kLanes];
-    uint8x16_t color = vld1q_u8(kLane);
-    for (uint8x16_t& weight : weights) {
-      weight = weigh(i, color);
-      color = vaddq_u8(color, vdupq_n_u8(kLanes));
+  const int32_t side = args.radius + 1;
+  for (int32_t dy = 0; dy < side; ++dy) {
+    for (int32_t dx = dy & 1; dx < side; dx += 2) {
+      const int32_t step = dy * side + dx;
+      uint8x16_t weights[kColors / kLanes];
+      uint8x16_t color = vld1q_u8(kLane);
+      for (uint8x16_t& weight : weights) {
+        weight = weigh(step, color);
+        color = vaddq_u8(color, vdupq_n_u8(kLanes));
+      }
+      store_table64(weights, scratch.tables[step]);
     }
-    store_table64(weights, scratch.tables[i]);
   }
 }
 
@@ -304,9 +308,10 @@ void copy_window(const MedianWeightedArgs& args, int32_t x, Scratch& scratch) {
   }
 }
 
-// A group that needs pixels beyond the row.
+// Some of the pixels of a group that needs pixels beyond the row.
 template <int32_t kPlanes>
-void smooth_end(const MedianWeightedArgs& args, int32_t x, int32_t taps, const Weighing& weighing, Scratch& scratch) {
+void smooth_end(const MedianWeightedArgs& args, int32_t x, int32_t pixels, int32_t taps, const Weighing& weighing,
+                Scratch& scratch) {
   copy_window(args, x, scratch);
   const int32_t radius = args.radius;
   Group group{&scratch.end_taps, taps, 0, kPlane, {}, scratch.lab + radius * kColumns + radius};
@@ -314,7 +319,6 @@ void smooth_end(const MedianWeightedArgs& args, int32_t x, int32_t taps, const W
     const int32_t row = radius - 1 + i;
     group.rows[i] = args.levels[row] == nullptr ? nullptr : scratch.levels[row] + radius;
   }
-  const int32_t pixels = args.width - x < kLanes ? args.width - x : kLanes;
   uint16_t checked[kLanes] = {};
   BSM_MEMCPY(checked, args.checked + x, static_cast<size_t>(pixels) * sizeof *checked);
   smooth_group<kPlanes, true>(args, group, checked, weighing, scratch, scratch.out);
@@ -327,9 +331,13 @@ void smooth_row(const MedianWeightedArgs& args, Scratch& scratch) {
   if (weighing.short_reach) fill_tables(args, weighing.table, scratch);
   const int32_t taps = list_taps(args, scratch);
   const int32_t radius = args.radius;
-  for (int32_t x = 0; x < args.width; x += kLanes) {
+  int32_t pixels;
+  for (int32_t x = 0; x < args.width; x += pixels) {
+    // The first group ends where the next one looks at the row's first pixel.
+    pixels = x < radius ? radius : kLanes;
     if (x < radius || x + kLanes + radius > args.width) {
-      smooth_end<kPlanes>(args, x, taps, weighing, scratch);
+      if (pixels > args.width - x) pixels = args.width - x;
+      smooth_end<kPlanes>(args, x, pixels, taps, weighing, scratch);
       continue;
     }
     Group group{&scratch.row_taps, taps, x, args.plane_stride, {}, args.lab[radius] + x};
