@@ -149,14 +149,13 @@ extern "C" bsm_status bsm_config_preset(bsm_config* config, bsm_preset preset) {
   const bool gray = !paper && !local && config->format == BSM_FORMAT_GRAY8;
   config->p1 = 80;
   config->p2 = 650;
-  config->edge_threshold = gray ? 16 : 24;
+  config->edge_threshold = gray ? 15 : 24;
   config->edge_divisor = 12;
   config->right_costs = BSM_RIGHT_COSTS_OWN;
   config->subpixel = paper ? 0 : 1;
   config->lr_tolerance = 1;
-  // Drops what agrees by chance: with masked costs alone, and with sums where the views differ in exposure. Its rows take
-  // memory, which `fast` saves.
-  config->speckle = paper || preset == BSM_PRESET_FAST ? 0 : local ? 10 : 15;
+  // Drops what agrees by chance: with masked costs alone, and with sums where the views differ in exposure.
+  config->speckle = paper ? 0 : local ? 10 : 16;
   config->border = paper ? 0 : 1;
   config->vote_radius = 24;
   config->vote_step = paper ? 1 : 6;

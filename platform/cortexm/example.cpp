@@ -40,6 +40,7 @@ bsm_context* open_matcher(const ImageRows& image, bsm_config* config) {
   config->format = image.channels == 1 ? BSM_FORMAT_GRAY8 : BSM_FORMAT_RGB24;
   config->num_disparities = 32;
   check(bsm_config_preset(config, BSM_PRESET_FAST));
+  config->speckle = 0;  // the filter's rows would take the last 4 KB of a small memory
   bsm_context* context = nullptr;
   check(bsm_open(config, arena, sizeof arena, &context));
   return context;

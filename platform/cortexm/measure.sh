@@ -186,9 +186,9 @@ echo "| million instructions / arena in KB | fast, gray8, right_costs 1 | fast, 
 echo "|---|---|---|---|---|---|"
 for core in "${cores[@]}"; do
   row="| Cortex-${core^^} |"
-  row+=$(cost "$core" "${gray[@]}" preset=fast right_costs=1)
-  row+=$(cost "$core" "${gray[@]}" preset=fast)
-  row+=$(cost "$core" "${color[@]}" preset=fast right_costs=1)
-  row+=$(cost "$core" "${color[@]}" preset=fast)
+  row+=$(cost "$core" "${gray[@]}" preset=fast speckle=0 right_costs=1)
+  row+=$(cost "$core" "${gray[@]}" preset=fast speckle=0)
+  row+=$(cost "$core" "${color[@]}" preset=fast speckle=0 right_costs=1)
+  row+=$(cost "$core" "${color[@]}" preset=fast speckle=0)
   echo "$row$(cost "$core" "${paper[@]}")"
 done
