@@ -213,6 +213,14 @@ TEST_CASE(presets) {
   }
 }
 
+// What a microcontroller of 192 KB matches.
+TEST_CASE(small_memory) {
+  bsm_config config = scene_config(64, BSM_FORMAT_GRAY8, 0);
+  REQUIRE_EQ(bsm_config_preset(&config, BSM_PRESET_FAST), BSM_OK);
+  config.speckle = 0;
+  check_maps("fast gray8 without speckle filter", config, encode(scene(0), BSM_FORMAT_GRAY8));
+}
+
 TEST_CASE(local_preset) {
   for (const bsm_format format : {BSM_FORMAT_RGB24, BSM_FORMAT_GRAY8}) {
     bsm_config config = scene_config(64, format, 0);
