@@ -8,7 +8,7 @@ namespace {
 constexpr int32_t kWidth = 64, kHeight = 48;
 constexpr int32_t kFar = 3, kNear = 9;
 
-alignas(8) uint8_t arena[46 * 1024];  // setup() says how much of it is needed
+alignas(8) uint8_t arena[48 * 1024];  // setup() says how much of it is needed
 uint8_t left_row[kWidth], right_row[kWidth];
 int16_t disparities[kWidth];
 
