@@ -81,7 +81,8 @@ void plan_steps(const bsm_config& config, Plan* plan) {
   };
   add(kEnter, true, 0);
   add(kMatch, true, plan->pattern_radius);
-  for (int32_t path = 0; path < plan->across_paths; ++path) add(kAcross + path, true, 0);
+  plan->step[kAcross] = plan->step[kMatch];  // in the same move
+  plan->step[kAcross].runs = plan->across_paths != 0;
   add(kCheck, true, 0);
   add(kDespeckle, plan->speckle_radius != 0, plan->speckle_radius);
   const int32_t checked = lag;
@@ -97,8 +98,7 @@ void plan_steps(const bsm_config& config, Plan* plan) {
   const int32_t known = checked + (config.confidence != 0 ? kConfidenceRadius : 0);
   add(kWrite, true, largest(written, known) - lag);
   plan->delay = lag;
-  plan->batch = config.max_jobs == 1 ? 1 : 2 * config.max_jobs;
-  plan->skew = config.max_jobs == 1 ? 0 : plan->batch;
+  plan->batch = config.max_jobs == 1 ? 1 : kBlockRows * config.max_jobs;
 }
 
 // Rows of a ring that `writer` fills and `reader` reads up to `reach` rows above the row it is at; 0 where one does not run.
@@ -106,7 +106,8 @@ int32_t ring_rows(const Plan& plan, int32_t writer, int32_t reader, int32_t reac
   const StepPlan& first = plan.step[writer];
   const StepPlan& last = plan.step[reader];
   if (!first.runs || !last.runs) return 0;
-  return plan.batch + last.lag - first.lag + (last.turn - first.turn) * plan.skew + reach;
+  const int32_t skew = plan.batch == 1 ? 0 : plan.batch;
+  return plan.batch + last.lag - first.lag + (last.turn - first.turn) * skew + reach;
 }
 
 // Bytes of `values` 16-bit values.
@@ -131,6 +132,7 @@ JobPlan plan_job(const bsm_config& config, const Kernels& kernels, const Plan& p
   job.row = carver.take(bytes_of(width));
   job.window = carver.take(static_cast<uint32_t>(2 * window_rows) * sizeof(void*));
   job.kernel = carver.take(kernel_scratch_bytes(kernels, shape, sgm));
+  job.state = carver.take(sizeof(JobState));
   job.bytes = static_cast<size_t>(carver.used());
   return job;
 }
@@ -169,7 +171,7 @@ void make_plan(const bsm_config& config, const Kernels& kernels, uint64_t contex
   const int32_t window_rows = ring_rows(plan, kEnter, kMatch, pattern);
   int32_t refine_lab_rows = largest(window_rows, ring_rows(plan, kEnter, kVote, vote));
   if (smooth != 0) refine_lab_rows = largest(refine_lab_rows, ring_rows(plan, kEnter, last_smooth, smooth));
-  const int32_t edge_lab_rows = plan.across_paths == 0 ? 0 : ring_rows(plan, kEnter, kAcross + plan.across_paths - 1, 1);
+  const int32_t edge_lab_rows = plan.across_paths == 0 ? 0 : ring_rows(plan, kEnter, kAcross, 1);
   const int32_t winner_rows = ring_rows(plan, kMatch, kCheck, 0);
   const int32_t confidence_rows = confidence ? ring_rows(plan, checker, kWrite, kConfidenceRadius) : 0;
   const int32_t level_reader = !refined ? kWrite : fractions ? kRestore : smooth != 0 ? last_smooth : kFill;
@@ -221,15 +223,15 @@ void make_plan(const bsm_config& config, const Kernels& kernels, uint64_t contex
   }
   if (sgm) {
     const uint32_t costs = bytes_of(static_cast<uint32_t>(config.width) * static_cast<uint32_t>(plan.level_stride));
-    const int32_t last_across = kAcross + plan.across_paths - 1;
     // The left view's winners are picked where the last path is added.
-    const int32_t sum_reader = confidence || config.right_costs == BSM_RIGHT_COSTS_LEFT ? kCheck : last_across;
+    const int32_t sum_reader = confidence || config.right_costs == BSM_RIGHT_COSTS_LEFT ? kCheck : kAcross;
     if (confidence) carver.take_ring(ring_rows(plan, kCheck, kWrite, 0), width, 0, &plan.margin);
-    carver.take_ring(largest(ring_rows(plan, kMatch, last_across, 0), all), costs, 0, &plan.cost);
+    carver.take_ring(largest(ring_rows(plan, kMatch, kAcross, 0), all), costs, 0, &plan.cost);
     carver.take_ring(largest(ring_rows(plan, kMatch, sum_reader, 0), all), costs, 0, &plan.sum);
-    // A path's costs are updated in place where no other job may still read those of the row before.
+    // A path's costs are updated in place where no other job may still read those of the row before: upwards, jobs do
+    // columns.
     for (int32_t path = 0; path < plan.across_paths; ++path) {
-      const bool in_place = plan.batch == 1 || path_dx(path) == 0;
+      const bool in_place = !plan.whole_frame || plan.batch == 1 || path_dx(path) == 0;
       carver.take_ring(in_place ? 1 : plan.batch + 1, costs, 0, &plan.path[path]);
     }
   }

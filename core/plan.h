@@ -16,6 +16,11 @@ constexpr uint32_t kArenaAlignment = 64;
 
 enum View : int32_t { kLeft = 0, kRight = 1, kViews = 2 };
 
+// Rows of each step that a job has in one move: the more, the less often costs of paths go from one job's cache to the next.
+constexpr int32_t kBlockRows = 4;
+constexpr int32_t kPieceRows = 2;  // rows that a job takes at a time
+constexpr int32_t kPieces = kBlockRows / kPieceRows;
+
 constexpr int32_t kMaxAcrossPaths = 3;  // from the row before: straight, from the left, from the right
 
 // A ring of rows: row y lives at offset + (y % rows) * stride.
@@ -23,6 +28,12 @@ struct Ring {
   size_t offset;    // of x = 0 in slot 0, in bytes
   int32_t rows;     // 0: not needed
   uint32_t stride;  // bytes between slots
+};
+
+// What the jobs of a move tell each other.
+struct JobState {
+  uint32_t arrived;  // at the job's gate
+  uint32_t begun;    // pieces of the job's rows that some job has taken
 };
 
 // Scratch of one job, as offsets from the job's own base.
@@ -33,16 +44,16 @@ struct JobPlan {
   size_t row;     // one 16-bit value per pixel
   size_t window;  // pointers to the rows of a window: of the pattern, or levels and then CIELAB of the refinement
   size_t kernel;  // scratch of the kernel that runs
+  size_t state;   // JobState
   size_t bytes;
 };
 
-// The steps of a row's way, in order. The paths from the row before and the passes of the weighted median are steps of their
-// own: kAcross + path, kSmooth + pass.
+// The steps of a row's way, in order. The passes of the weighted median are steps of their own: kSmooth + pass.
 enum Step : int32_t {
   kEnter,
   kMatch,
   kAcross,
-  kCheck = kAcross + kMaxAcrossPaths,
+  kCheck,
   kDespeckle,
   kContinue,
   kVote,
@@ -56,7 +67,7 @@ enum Step : int32_t {
 
 struct StepPlan {
   int16_t lag;  // rows behind the input: the sum of the radii up to this step
-  int8_t turn;  // steps that run before this one
+  int8_t turn;  // steps before this one that are done when it begins
   bool runs;
 };
 
@@ -73,8 +84,7 @@ struct Plan {
   int32_t delay;            // rows from input to output, one row at a time
   StepPlan step[kSteps];
 
-  int32_t batch;         // rows that move together
-  int32_t skew;          // rows that each step lags more than the one before where jobs run side by side
+  int32_t batch;  // rows that move together, and that each step lags more than the one before, where jobs run side by side
   int32_t across_paths;  // paths from the row before
   bool whole_frame;      // paths from below run over the whole frame before a row goes out
   int32_t planes;        // CIELAB planes kept: 0, 1 or 3

@@ -8,12 +8,13 @@ namespace bsm {
 namespace {
 
 constexpr int32_t kSameSurface = 24;  // sixteenths
-// Pixels taken together: so many that the compiler's vectors hold them. Without vectors each stops on its own.
+// Where the compiler has vectors, pixels are taken together. Without, each stops on its own.
 #if defined(__SSE2__) || defined(__ARM_NEON) || BSM_ARCH_SIMD128
-constexpr int32_t kBlock = 16;
+constexpr bool kTakesBlocks = true;
 #else
-constexpr int32_t kBlock = 1;
+constexpr bool kTakesBlocks = false;
 #endif
+constexpr int32_t kBlock = 16;
 constexpr int32_t kAskedColumns = kSpeckleRadius + 1;
 constexpr int8_t kAsked[] = {0, -2, 2, -4, 4};  // rows, the nearest first: they agree soonest
 
@@ -35,7 +36,7 @@ bool is_supported(const AskedRows& asked, uint16_t level, int32_t x, int32_t wid
   while (begin < 0) begin += 2;
   while (last >= width) last -= 2;
   int32_t missing = percent * asked.count * ((last - begin) / 2 + 1);  // in 1/100 pixel
-  for (int32_t row = 0; row < asked.count; ++row) {
+  for (int32_t row = 0; row < asked.count && missing > 0; ++row) {
     for (int32_t i = begin; i <= last; i += 2) {
       if (is_near(level, asked.row[row][i])) missing -= 100;
     }
@@ -76,7 +77,7 @@ void remove_speckles(const uint16_t* const* rows, int32_t width, int32_t percent
   }
   int32_t x = 0;
   while (x < width) {
-    if (x >= kSpeckleRadius && x + kBlock + kSpeckleRadius <= width) {
+    if (kTakesBlocks && x >= kSpeckleRadius && x + kBlock + kSpeckleRadius <= width) {
       remove_block(asked, levels, x, percent, out);
       x += kBlock;
     } else {

@@ -93,4 +93,18 @@
 #define BSM_INLINE __forceinline
 #endif
 
+// Adds one to a count and gives the count before. With BSM_HAS_ATOMICS several threads may: what a thread did before its
+// turn is seen by those whose turn comes later.
+#if defined(__GCC_HAVE_SYNC_COMPARE_AND_SWAP_4)
+#define BSM_HAS_ATOMICS 1
+#define BSM_COUNT_UP(count) __atomic_fetch_add((count), 1u, __ATOMIC_ACQ_REL)
+#elif defined(_MSC_VER)
+#include <intrin.h>
+#define BSM_HAS_ATOMICS 1
+#define BSM_COUNT_UP(count) (static_cast<uint32_t>(_InterlockedIncrement(reinterpret_cast<volatile long*>(count))) - 1u)
+#else
+#define BSM_HAS_ATOMICS 0
+#define BSM_COUNT_UP(count) ((*(count))++)
+#endif
+
 #endif  // BSM_PLATFORM_COMPILER_H

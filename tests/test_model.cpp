@@ -118,7 +118,7 @@ TEST_CASE(tall_images) {
     config.bits = 64;
     config.num_disparities = rng.range(2, 6);
     config.vote_radius = rng.one_in(2) ? rng.range(1, 12) : rng.range(13, 32);
-    config.max_jobs = rng.range(1, 2);  // rows move in batches with more than one
+    config.max_jobs = rng.range(1, 2);  // rings hold the rows of a move with more than one
     compare(config, make_pair(rng, rng.one_in(2) ? Content::kShifted : Content::kNoise, config.width, config.height));
   }
 }
