@@ -145,11 +145,12 @@ extern "C" bsm_status bsm_config_preset(bsm_config* config, bsm_preset preset) {
   }
   config->sigma = paper ? 4 : 3;
   config->paths = preset == BSM_PRESET_BEST ? 8 : 4;
-  // One set for each method, whatever the length and the paths. Luma alone tells less: sgm weighs its differences more.
+  // One set for each method, whatever the length and the paths. Luma alone tells less: sgm weighs its differences more, and
+  // jumps cost more.
   const bool gray = !paper && !local && config->format == BSM_FORMAT_GRAY8;
-  config->p1 = 80;
-  config->p2 = 650;
-  config->edge_threshold = gray ? 15 : 24;
+  config->p1 = gray ? 125 : 80;
+  config->p2 = gray ? 700 : 650;
+  config->edge_threshold = gray ? 13 : 24;
   config->edge_divisor = 12;
   config->right_costs = BSM_RIGHT_COSTS_OWN;
   config->subpixel = paper ? 0 : 1;
@@ -159,13 +160,13 @@ extern "C" bsm_status bsm_config_preset(bsm_config* config, bsm_preset preset) {
   config->border = paper ? 0 : 1;
   config->vote_radius = 24;
   config->vote_step = paper ? 1 : 6;
-  config->vote_color = paper ? 9 : local || gray ? 2 : 4;
-  config->vote_distance = paper ? 16 : local ? 8 : 12;  // more holes to fill: local's vote keeps closer to its pixel
+  config->vote_color = paper ? 9 : local ? 2 : gray ? 3 : 4;
+  config->vote_distance = paper ? 16 : local || gray ? 8 : 12;  // more holes to fill: the vote keeps closer to its pixel
   config->vote_cap = paper ? 0 : 1;
   config->smooth_radius = 4;
   config->smooth_passes = paper ? 0 : local ? 2 : 3;
   config->smooth_color = local ? 6 : gray ? 3 : 7;
-  config->smooth_distance = local ? 7 : 12;
+  config->smooth_distance = local ? 7 : gray ? 9 : 12;
   config->median = 1;
   return BSM_OK;
 }

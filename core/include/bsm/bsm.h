@@ -279,7 +279,7 @@ typedef struct bsm_context bsm_context;
 BSM_API bsm_status bsm_config_init(bsm_config* config, int32_t width, int32_t height);
 
 /* Sets the fields of costs, aggregation, check and refinement to those of a preset and leaves the others as they are. Set
- * format first: for gray8 the colour scales of sgm are about half. Errors: BSM_ERROR_NULL, BSM_ERROR_PRESET. */
+ * format first: for gray8 sgm has penalties and scales of its own. Errors: BSM_ERROR_NULL, BSM_ERROR_PRESET. */
 BSM_API bsm_status bsm_config_preset(bsm_config* config, bsm_preset preset);
 
 /* *bytes = size of the arena that bsm_open needs for config with the kernels this machine would run. The figure is exact and
