@@ -29,6 +29,11 @@ int32_t skew_of(const bsm_context& context, int32_t jobs) {
   return jobs == 1 ? 0 : context.plan.batch;
 }
 
+// Adds one and gives the count before.
+BSM_COUNTS uint32_t count_up(uint32_t* count) {
+  return BSM_COUNT_UP(count);
+}
+
 struct Rows {
   int32_t begin, end;
 };
@@ -143,7 +148,7 @@ Rows own_rows(const bsm_context& context, const Move& move, int32_t step, int32_
 // job waits for another, in whatever order they run.
 void follow_paths(const bsm_context& context, const Move& move, const Share& share) {
   for (int32_t owner = share.job; owner < share.jobs; ++owner) {
-    if (BSM_COUNT_UP(&state_of(context, owner)->arrived) == 0) return;
+    if (count_up(&state_of(context, owner)->arrived) == 0) return;
     aggregate_downwards(context, own_rows(context, move, kAcross, owner, share.jobs), share.scratch);
   }
 }
@@ -181,7 +186,7 @@ void do_share(const bsm_context& context, const Move& move, const Share& share) 
   for (int32_t i = 0; i < share.jobs; ++i) {
     const int32_t owner = (share.job + i) % share.jobs;
     for (;;) {
-      const int32_t piece = static_cast<int32_t>(BSM_COUNT_UP(&state_of(context, owner)->begun));
+      const int32_t piece = static_cast<int32_t>(count_up(&state_of(context, owner)->begun));
       if (paths && piece >= turn) {
         follow_paths(context, move, share);
         paths = false;

@@ -106,5 +106,13 @@
 #define BSM_HAS_ATOMICS 0
 #define BSM_COUNT_UP(count) ((*(count))++)
 #endif
+// Before a function that counts up: made of the first AArch64's instructions, instead of a call into the compiler's library,
+// which asks the operating system for newer ones.
+#if defined(__aarch64__) && !defined(__APPLE__) && \
+    ((defined(__clang__) && __clang_major__ >= 12) || (!defined(__clang__) && defined(__GNUC__) && __GNUC__ >= 10))
+#define BSM_COUNTS __attribute__((noinline, target("no-outline-atomics")))
+#else
+#define BSM_COUNTS
+#endif
 
 #endif  // BSM_PLATFORM_COMPILER_H

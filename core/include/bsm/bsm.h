@@ -218,8 +218,8 @@ typedef struct bsm_config {
   int32_t median;          /* 1: a 3x3 median at the end */
 
   /* Machine. */
-  int32_t max_jobs;     /* jobs that bsm_process may run side by side, 1..BSM_MAX_JOBS; each needs scratch memory. Processors
-                           without atomic additions run one */
+  int32_t max_jobs;     /* jobs that bsm_process may run side by side, 1..BSM_MAX_JOBS; each needs scratch and rows of its
+                           own. Processors without atomic additions run one */
   uint32_t isa_mask;    /* instruction sets allowed (bsm_cpu_features bits); BSM_ISA_ALL for all. Scalar always is */
   uint32_t reserved[5]; /* zero */
 } bsm_config;
