@@ -94,7 +94,7 @@ run_arm64() {
   scan_refuses arm64 aarch64-linux-gnu
 }
 run_arm32() {
-  cross arm32 arm-linux-gnueabihf qemu-arm cortex-a7:neon:all cortex-a9,neon=off:scalar:all
+  cross arm32 arm-linux-gnueabihf qemu-arm cortex-a7:neon:all cortex-a9,neon=off:scalar
   measures arm32 neon qemu-arm -cpu cortex-a7
   traps arm32 arm-linux-gnueabihf qemu-arm -L /usr/arm-linux-gnueabihf -cpu cortex-a7
   scan arm32 arm-linux-gnueabihf -march=armv7-a -mfpu=vfpv3-d16 -mthumb
