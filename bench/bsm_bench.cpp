@@ -66,7 +66,7 @@ int frame_command(int argc, char** argv) {
       kFrame, "bsm_bench frame LEFT RIGHT [options]",
       "Times the matching of a rectified pair, two PPM or PGM images of one size: the whole frame, million\n"
       "disparity evaluations a second (pixels x disparities / time), and each stage as the difference of\n"
-      "whole runs that end there.");
+      "whole runs that end there. With several threads every run takes turns with one of one thread.");
   options.positional("LEFT", &bench.left);
   options.positional("RIGHT", &bench.right);
   bench.config.add_search(&options);

@@ -1,4 +1,5 @@
-// Measures frames: one context for each stage that the map can come from, the contexts in turn.
+// Measures frames: one context for each stage that the map can come from, the contexts in turn. With several threads each
+// stage has a second context for one thread, which takes its turn too.
 #include "bench/frame_bench.h"
 
 #include <algorithm>
@@ -25,7 +26,19 @@ constexpr double kNoisy = 2.0;  // slowest run over fastest above which a note i
 struct StageRun {
   FrameRun frames;
   std::vector<double> milliseconds;
+  FrameRun alone;  // the same in one thread; opened where there are several
+  std::vector<double> milliseconds_alone;
 
+  bool open(bsm_config config, std::string* error) {
+    if (!frames.open(config, error)) return false;
+    const bool several = config.max_jobs > 1;
+    config.max_jobs = 1;
+    return !several || alone.open(config, error);
+  }
+  bool match(const host::Image8& left, const host::Image8& right, std::string* error) {
+    if (!frames.match(left, right, &milliseconds.emplace_back(), error)) return false;
+    return alone.context() == nullptr || alone.match(left, right, &milliseconds_alone.emplace_back(), error);
+  }
   const bsm_config& config() const { return frames.config(); }
   double fastest() const { return *std::min_element(milliseconds.begin(), milliseconds.end()); }
   double slowest() const { return *std::max_element(milliseconds.begin(), milliseconds.end()); }
@@ -41,17 +54,18 @@ bool open_runs(bsm_config config, Runs* runs, std::string* error) {
     size_t bytes = 0;
     if (bsm_memory_required(&config, &bytes) == BSM_ERROR_STAGE) continue;
     runs->push_back(std::make_unique<StageRun>());
-    if (!runs->back()->frames.open(config, error)) return false;
+    if (!runs->back()->open(config, error)) return false;
   }
   return true;
 }
 
 bool measure(const host::Image8& left, const host::Image8& right, int32_t repeat, const Runs& runs, std::string* error) {
-  for (int32_t i = -1; i < repeat; ++i) {  // the round before the first touches the memory and is not kept
+  for (int32_t i = -1; i < repeat; ++i) {
     for (const std::unique_ptr<StageRun>& run : runs) {
-      double milliseconds = 0.0;
-      if (!run->frames.match(left, right, &milliseconds, error)) return false;
-      if (i >= 0) run->milliseconds.push_back(milliseconds);
+      if (!run->match(left, right, error)) return false;
+      if (i >= 0) continue;  // the round before the first touches the memory and is not kept
+      run->milliseconds.clear();
+      run->milliseconds_alone.clear();
     }
   }
   return true;
@@ -63,7 +77,7 @@ bool open_lengths(bsm_config config, Runs* runs, std::string* error) {
   const int32_t most = config.method == BSM_METHOD_SGM ? BSM_MAX_SGM_BITS : BSM_MAX_BITS;
   for (config.bits = kLeast; config.bits <= most; config.bits *= 2) {
     runs->push_back(std::make_unique<StageRun>());
-    if (!runs->back()->frames.open(config, error)) return false;
+    if (!runs->back()->open(config, error)) return false;
   }
   return true;
 }
@@ -86,6 +100,23 @@ double difference(const StageRun& run, const StageRun& before) {
   return median(differences);
 }
 
+// One thread's time over that of several: the median of the rounds' ratios.
+double speedup(const StageRun& run) {
+  std::vector<double> ratios;
+  for (size_t i = 0; i < run.milliseconds.size(); ++i) ratios.push_back(run.milliseconds_alone[i] / run.milliseconds[i]);
+  return median(ratios);
+}
+
+// Two more columns of a table with a row for each run, where the runs have several threads.
+void compare_with_one_thread(const Runs& runs, Table* table) {
+  if (runs.front()->milliseconds_alone.empty()) return;
+  table->columns.insert(table->columns.end(), {"ms_one_thread", "speedup"});
+  for (size_t i = 0; i < runs.size(); ++i) {
+    std::vector<std::string>& cells = table->rows[i];
+    cells.insert(cells.end(), {fixed(median(runs[i]->milliseconds_alone)), fixed(speedup(*runs[i]))});
+  }
+}
+
 std::string joined(const std::vector<std::string>& words) {
   std::string line;
   for (const std::string& word : words) line += (line.empty() ? "" : " ") + word;
@@ -100,6 +131,7 @@ Table table_of_lengths(const Runs& runs) {
     table.add({std::to_string(run->config().bits), fixed(ms), fixed(run->fastest()), fixed(mde(run->config(), ms), 1),
                std::to_string(run->frames.arena_bytes())});
   }
+  compare_with_one_thread(runs, &table);
   return table;
 }
 
@@ -117,6 +149,7 @@ void print_csv(const FrameBench& bench, const Runs& runs) {
                c.method == BSM_METHOD_SGM ? std::to_string(c.paths) : "", std::to_string(c.max_jobs),
                std::to_string(run.frames.arena_bytes()), joined(host::kernel_names(run.frames.context()))});
   }
+  compare_with_one_thread(runs, &table);
   std::fputs(to_csv(table).c_str(), stdout);
 }
 
@@ -160,6 +193,7 @@ void print_text(const FrameBench& bench, const Runs& runs) {
     table.add({name_of(run), fixed(run_ms), fixed(run.fastest()), fixed(i == 0 ? run_ms : difference(run, *runs[i - 1])),
                fixed(spread)});
   }
+  compare_with_one_thread(runs, &table);
   std::fputs(to_text(table).c_str(), stdout);
   if (noisy) std::printf("\nNote: runs of a stage are more than %.0f times apart; the machine is busy.\n", kNoisy);
 }
