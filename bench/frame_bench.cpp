@@ -100,6 +100,12 @@ double difference(const StageRun& run, const StageRun& before) {
   return median(differences);
 }
 
+std::string joined(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + word;
+  return line;
+}
+
 // One thread's time over that of several: the median of the rounds' ratios.
 double speedup(const StageRun& run) {
   std::vector<double> ratios;
@@ -117,10 +123,11 @@ void compare_with_one_thread(const Runs& runs, Table* table) {
   }
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : " ") + word;
-  return line;
+// A line about them, or none.
+const char* explain_threads(const Runs& runs) {
+  return runs.front()->milliseconds_alone.empty()
+             ? ""
+             : "\n'ms_one_thread' is a run in one thread, each in turn too; 'speedup' the median of the rounds' ratios.";
 }
 
 Table table_of_lengths(const Runs& runs) {
@@ -167,7 +174,8 @@ void print_heading(const FrameBench& bench, const StageRun& run, const std::stri
 
 void print_lengths(const FrameBench& bench, const Runs& runs) {
   print_heading(bench, *runs.back(), "256 and more");
-  std::printf("\nWhole frames, medians of %d runs, the lengths in turn.\n\n", static_cast<int>(bench.repeat));
+  std::printf("\nWhole frames, medians of %d runs, the lengths in turn.%s\n\n", static_cast<int>(bench.repeat),
+              explain_threads(runs));
   std::fputs(to_text(table_of_lengths(runs)).c_str(), stdout);
 }
 
@@ -181,7 +189,8 @@ void print_text(const FrameBench& bench, const Runs& runs) {
   std::printf(
       "Whole runs up to each stage, taken in turn. 'stage' is the median difference to the run of the stage before, no "
       "time\n"
-      "taken inside a run: a step that one run does otherwise than the next counts in both, and may make it negative.\n\n");
+      "taken inside a run: a step that one run does otherwise than the next counts in both, and may make it negative.%s\n\n",
+      explain_threads(runs));
   Table table;
   table.columns = {"up to", "ms", "least", "stage", "max/min"};
   bool noisy = false;
