@@ -4,6 +4,7 @@
 run_native() {
   run_suite native tests . -DCMAKE_BUILD_TYPE=Release
   savings_change_nothing
+  frames_measured
   check_presets
 }
 
@@ -43,4 +44,19 @@ savings_change_nothing() {
   done
   expect "every kernel measured" "$root/build/tests/bench/bsm_bench" kernels --width 64 --bits 128 --disparities 16 --repeat 1
   expect "savings change nothing, gray" "$root/build/tests/bench/bsm_bench" savings "$out/left.pgm" "$out/right.pgm" --repeat 1
+}
+
+# The stages of a frame, one thread in turns with two.
+frames_measured() {
+  # shellcheck disable=SC2034  # read by expect
+  local suite=native bench=$root/build/tests/bench/bsm_bench scene=$root/build/tests/savings
+  expect "stages of a frame measured, one thread and two" has_speedups "$bench" frame "$scene/left.ppm" "$scene/right.ppm" \
+    --threads 2 --repeat 1 --csv
+}
+
+has_speedups() {
+  local output
+  output=$("$@") || return
+  echo "$output"
+  grep -q '^stage,.*,ms_one_thread,speedup$' <<< "$output" && grep -qE '^refined,.*,[0-9]+\.[0-9]+,[0-9]+\.[0-9]+$' <<< "$output"
 }
