@@ -36,13 +36,11 @@ inline Bytes add16_saturated(Bytes a, Bytes b) {
 inline Bytes sub16(Bytes a, Bytes b) {
   return _mm512_sub_epi16(a, b);
 }
-// The least lane, in all lanes. Four parts are compared at a time: shuffles side by side make the chain shorter.
+// The least lane, in all lanes. Halves fold down to 128 bits, whose least lane is one instruction.
 inline Bytes least_everywhere(Bytes a) {
-  a = min16(min16(a, _mm512_shuffle_i64x2(a, a, 0x4e)),
-            min16(_mm512_shuffle_i64x2(a, a, 0xb1), _mm512_shuffle_i64x2(a, a, 0x1b)));
-  a = min16(min16(a, _mm512_shuffle_epi32(a, _MM_PERM_BADC)),
-            min16(_mm512_shuffle_epi32(a, _MM_PERM_CDAB), _mm512_shuffle_epi32(a, _MM_PERM_ABCD)));
-  return min16(a, _mm512_rol_epi32(a, 16));
+  const __m256i half = _mm256_min_epu16(_mm512_castsi512_si256(a), _mm512_extracti64x4_epi64(a, 1));
+  const __m128i quarter = _mm_min_epu16(_mm256_castsi256_si128(half), _mm256_extracti128_si256(half, 1));
+  return _mm512_broadcastw_epi16(_mm_minpos_epu16(quarter));
 }
 // Lane k of the result is lane k - 1 of `a`, lane 0 the last of `before`.
 inline Bytes from_below(Bytes before, Bytes a) {
